@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace slipscale {
+
+/// Prints to standard output on rank 0 of PETSC_COMM_WORLD and flushes.
+void print(const std::string& text);
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+/// Columns padded to their widest cell, two spaces apart, the first row underlined as the heading. The first
+/// column is flush left, the others flush right.
+std::string table(const std::vector<std::vector<std::string>>& rows);
+
+/// A quantity with an SI prefix and its unit, three or four digits: `engineering(3.2e-9, "s")` is "3.200 ns".
+std::string engineering(double value, const std::string& unit);
+
+}  // namespace slipscale

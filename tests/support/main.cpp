@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+#include <petscsys.h>
+
+/// Runs the tests of one executable on every rank; only rank 0 prints, unless another rank fails.
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  MPI_Init(&argc, &argv);
+  if (PetscInitialize(&argc, &argv, nullptr, nullptr)) return 1;
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  auto& listeners = testing::UnitTest::GetInstance()->listeners();
+  class Quiet : public testing::EmptyTestEventListener {
+    void OnTestPartResult(const testing::TestPartResult& result) override {
+      if (result.failed())
+        std::fprintf(stderr, "%s:%d: %s\n", result.file_name() ? result.file_name() : "?",
+                     result.line_number(), result.message());
+    }
+  };
+  if (rank != 0) {
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new Quiet);
+  }
+  int failed = RUN_ALL_TESTS();
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  if (PetscFinalize()) failed = 1;
+  MPI_Finalize();
+  return failed;
+}
