@@ -24,6 +24,9 @@ class LibraryError : public std::runtime_error {
 /// Throws `LibraryError` with PETSc's own message when `code` is not zero: `petsc(VecSet(x, 0.0));`
 void petsc(PetscErrorCode code, std::source_location where = std::source_location::current());
 
+/// From now on PETSc keeps the text of a failure for `petsc` and `take_petsc_message` instead of printing it.
+void keep_petsc_messages();
+
 /// PETSc's text of the failure that is being handled; empty when there is none. Reading it clears it.
 std::string take_petsc_message();
 

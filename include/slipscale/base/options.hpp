@@ -26,28 +26,30 @@ Range one_of_or_number(std::vector<std::string> words, const Range& number);  //
 }  // namespace range
 
 /// Fallbacks that are not values.
-inline constexpr const char* required = "(required)";  ///< asking for it without its being given is the user's error
+inline constexpr const char* required = "(required)";  ///< asking for it when not given is the user's error
 inline constexpr const char* absent = "(none)";        ///< the scene does not have it
 
 /// One option, declared once: reading, checking, `-help` and `run.yaml` all come from this line.
 struct Option {
-  std::string name;      ///< without dash; `<region>` or `<boundary>` stands for a name of the mesh
+  std::string name;  ///< without dash; `<region>` or `<boundary>` stands for a name of the mesh;
+                     ///< `<entry>` for anything at all, which is neither read nor checked
   Kind kind;
   std::string unit;      ///< SI unit, "1" for a ratio, "" for texts and flags
   std::string fallback;  ///< the default as the user would type it, or `required`, or `absent`
   Range range;
-  std::string help;      ///< one sentence
+  std::string help;  ///< one sentence
 };
 
 using Schema = std::vector<Option>;
 
 Schema operator+(Schema left, const Schema& right);
 
-/// The options of one run: what the command line, the YAML file and the defaults say, checked against a schema.
+/// The options of one run: what command line, YAML files and defaults say, checked against a schema.
 ///
-/// Every reader throws `UserError` with one sentence when the value is missing, is not of its kind or is out of
-/// range. Names are given without dash and with the region or boundary filled in: `real("material_matrix_young")`.
-/// All members are collective in effect: every rank sees the same database and throws the same error.
+/// Every reader throws `UserError` with one sentence when the value is missing, is not of its kind or is out
+/// of range. Names are given without dash and with the region or boundary filled in:
+/// `real("material_matrix_young")`. All members are collective in effect: every rank sees the same database
+/// and throws the same error.
 class Options {
  public:
   /// Checks the PETSc options database against the schema as far as that is possible without a mesh.
@@ -64,11 +66,11 @@ class Options {
   bool given(const std::string& name) const;                 ///< on the command line or in the file
 
   /// Tells which names may stand for a placeholder: `know_names("region", {"matrix", "inclusion", "all"})`.
-  /// An option like `-material_martix_young` then stops the run with the nearest known name. Names that differ
-  /// only in case are refused, because PETSc's database folds case.
+  /// An option like `-material_martix_young` then stops the run with the nearest known name. Names that
+  /// differ only in case are refused, because PETSc's database folds case.
   void know_names(const std::string& placeholder, const std::vector<std::string>& names);
 
-  /// Stops on any option that neither the schema declares nor PETSc has used by now. Call when set-up is done.
+  /// Stops on any option that neither the schema declares nor PETSc has used. Call when set-up is done.
   void refuse_unknown() const;
 
   /// Every option asked for so far with the value in effect, as the user would type it; sorted by name.
@@ -82,14 +84,16 @@ class Options {
   Match match(const std::string& name) const;
   std::optional<std::string> value(const std::string& name) const;
   std::string needed(const std::string& name) const;
+  void refuse_if_unknown(const std::string& name) const;
 
   std::string program_;
   Schema schema_;
   std::map<std::string, std::vector<std::string>> names_;  ///< placeholder -> what may stand for it
+  std::vector<std::string> typed_;                         ///< given by the user, not read by PETSc itself
   mutable std::map<std::string, std::string> effective_;
 };
 
-/// The manual: every option of the schema with unit, range, default and help, grouped by the name's first word.
+/// The manual: every option with unit, range, default and help, grouped by the first word of the name.
 std::string manual(const std::string& program, const std::string& purpose, const Schema& schema);
 
 /// The word of `known` nearest to `word` (edit distance, case folded); empty when none is near.

@@ -15,9 +15,9 @@ struct Program {
   std::function<void(Options& options)> run;  ///< on PETSC_COMM_WORLD
 };
 
-/// Starts MPI and PETSc, reads the options (`-options_file_yaml` first, then the command line over it), answers
-/// `-h` and `-help`, runs the program and turns errors into exit codes: 0 done, 2 a mistake of the user (one
-/// sentence on rank 0), 1 anything else. The value returned is the same on every rank.
+/// Starts MPI and PETSc, reads the options (`-options_file_yaml` first, then the command line over it),
+/// answers `-help` and `-version`, runs the program and turns errors into exit codes: 0 done, 2 a mistake of
+/// the user (one sentence on rank 0), 1 anything else, which ends all ranks at once.
 int run_program(int argc, char** argv, const Program& program);
 
 }  // namespace slipscale

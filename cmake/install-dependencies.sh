@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs what slipscale needs to build, test and plot, from Debian 12's own packages. Harmless to run again.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config git clang-format
+  petsc-dev libpetsc-real-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libmetis-dev libfftw3-dev libeigen3-dev
+  gmsh libgmsh-dev
+  libgtest-dev
+  python3 python3-numpy python3-h5py python3-matplotlib python3-yaml python3-meshio
+)
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "No apt here: install a C++20 compiler, CMake 3.25, Ninja, pkg-config, Open MPI, PETSc 3.18 (real numbers)," \
+    "parallel HDF5, METIS, FFTW 3, Eigen 3.4, gmsh 4.8 with its library, GoogleTest, and Python 3.11 with numpy," \
+    "h5py, matplotlib, yaml and meshio." >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "Neither root nor sudo: ask an administrator to install ${missing[*]}." >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "Installing ${missing[*]}"
+"${as_root[@]}" apt-get update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "${missing[@]}"

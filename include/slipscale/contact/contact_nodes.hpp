@@ -1,0 +1,97 @@
+#pragma once
+
+#include <vector>
+
+#include "slipscale/base/vector2.hpp"
+#include "slipscale/contact/friction.hpp"
+
+namespace slipscale {
+
+/// What contact needs to know of the step from t_n to t_{n+1}.
+struct ContactStep {
+  double displacement = 0;     ///< c: displacement that unit acceleration adds over the step, s²
+  double velocity = 0;         ///< velocity that unit acceleration adds, s
+  double surface_travel = 0;   ///< path of the surface over the step, m
+  double surface_speed = 0;    ///< V at t_n, m/s
+};
+
+/// The state arrays of a rank that contact reads and changes, by local node.
+struct NodalState {
+  Vector2* displacement;  ///< in: û, the prediction of u_{n+1} without contact; m
+  Vector2* velocity;      ///< v_n, m/s
+  Vector2* acceleration;  ///< a_n, m/s²
+};
+
+/// The owned nodes of this rank that can touch the rigid surface, in compact arrays, ascending node number.
+///
+/// Forward-increment Lagrange multipliers (Carpenter, Taylor, Katona, IJNME 32 (1991) 103): the multiplier at t_n
+/// enforces the constraint at t_{n+1}. With lumped mass and a rigid plane the nodes do not see one another.
+class ContactNodes {
+ public:
+  /// `slot` is where a node stands in the arrays `before` and `support` below; `held`: its x is prescribed.
+  void add(int node, int slot, double mass, double tributary_length, double clearance, bool held);
+  void start_memory(double traction, double pressure);  ///< at t = 0: a body that already slides, Pa
+
+  /// Signorini and friction at every node: 0 ≤ λ ⟂ gap_{n+1} ≥ 0, then the law. `before` [slots] is u_n.
+  /// Adds the contact force to acceleration, velocity and displacement. At a held node the motion along x stays and
+  /// friction is taken from the reaction `support` [slots] of what holds it.
+  template <class Law>
+  void enforce(const Law& law, const ContactStep& step, const Vector2* before, Vector2* support, NodalState state);
+
+  int size() const { return static_cast<int>(node.size()); }
+
+  std::vector<int> node, slot;
+  std::vector<double> mass;              ///< kg/m
+  std::vector<double> tributary_length;  ///< A, m
+  std::vector<double> clearance;         ///< height of the undeformed node above the surface, m
+  std::vector<char> held;
+  std::vector<FrictionMemory> memory;
+  // At t_n, from the last `enforce`:
+  std::vector<Vector2> force;            ///< (τA, λ), N/m
+  std::vector<double> traction;          ///< τ on the body along +x, Pa
+  std::vector<double> pressure;          ///< p = λ/A ≥ 0, Pa
+  std::vector<ContactStatus> status;
+};
+
+template <class Law>
+void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector2* before, Vector2* support,
+                           NodalState state) {
+  for (int k = 0; k < size(); ++k) {
+    const int i = node[k];
+    const double m = mass[k], length = tributary_length[k];
+    Vector2& u = state.displacement[i];
+    const double gap = clearance[k] + u[1];
+    if (gap >= 0) {
+      force[k] = {0, 0};
+      traction[k] = pressure[k] = 0;
+      status[k] = ContactStatus::open;
+      memory[k] = {};
+      continue;
+    }
+    const double normal = -gap * m / step.displacement;
+    const double missing = before[slot[k]][0] + step.surface_travel - u[0];
+    FrictionDemand demand{missing * m / (step.displacement * length), normal / length, 0};
+    if constexpr (Law::uses_slip_rate)
+      demand.slip_rate = step.surface_speed - (state.velocity[i][0] - step.velocity * state.acceleration[i][0]);
+    // A held node that does not slip leaves its share undetermined: the surface carries what friction can.
+    if (held[k] && missing == 0) demand.trial = support[slot[k]][0] / length;
+    const Friction friction = law(demand, memory[k]);
+    force[k] = {friction.traction * length, normal};
+    traction[k] = friction.traction;
+    pressure[k] = demand.pressure;
+    status[k] = friction.status;
+
+    Vector2 push{force[k][0] / m, normal / m};
+    if (held[k]) {
+      support[slot[k]][0] -= force[k][0];
+      push[0] = 0;
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      state.acceleration[i][axis] += push[axis];
+      state.velocity[i][axis] += step.velocity * push[axis];
+      u[axis] += step.displacement * push[axis];
+    }
+  }
+}
+
+}  // namespace slipscale

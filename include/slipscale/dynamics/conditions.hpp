@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipscale/base/options.hpp"
+#include "slipscale/mesh/mesh.hpp"
+#include "slipscale/solid/material.hpp"
+
+namespace slipscale {
+
+/// What acts on one named boundary. Displacements are counted from the initial state; every amplitude follows
+/// ½(1 − cos(πt/ramp)) and is then held; ramp 0 applies it at once.
+struct BoundaryCondition {
+  std::string boundary;
+  std::array<std::optional<double>, 2> displacement{};  ///< prescribed along x, y, m; 0 is `fixed`
+  double pressure = 0;                                  ///< > 0 compresses, Pa
+  double shear = 0;                                     ///< traction on the body along +x, Pa
+  double ramp = 0;                                      ///< s
+};
+
+Schema boundary_schema();
+
+/// The conditions of the scene in the order of the mesh's boundaries. Throws UserError for a condition on an
+/// interior boundary (the seam of a periodic mesh, say).
+std::vector<BoundaryCondition> read_conditions(const Options& options, const Mesh& mesh);
+
+std::string describe(const BoundaryCondition& condition);
+
+/// How the body starts.
+struct InitialState {
+  Vector2 velocity{};     ///< m/s
+  double amplitude = 0;   ///< of v_x = amplitude cos(2πx/wavelength)(1 − y/H)², m/s
+  double wavelength = 0;  ///< m
+  double gap = 0;         ///< lifts the body, m
+  double pressure = 0;    ///< uniform state u_y = −p y/C22, Pa
+  double shear = 0;       ///< uniform state u_x = τ(H − y)/C66, Pa
+};
+
+Schema initial_schema();
+InitialState read_initial(const Options& options);
+
+/// Sets u [all local nodes] and v [owned nodes]. Throws UserError for a uniform state in a body that is not uniform.
+void set_initial(const InitialState& initial, const Mesh& mesh, const std::vector<Material>& materials,
+                 Vector2* displacement, Vector2* velocity);
+
+}  // namespace slipscale

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipscale/contact/law.hpp"
+#include "slipscale/contact/surface.hpp"
+#include "slipscale/dynamics/conditions.hpp"
+#include "slipscale/dynamics/model.hpp"
+#include "slipscale/dynamics/scheme.hpp"
+
+namespace slipscale {
+
+/// Everything that a run models, as the user described it. What is absent costs nothing.
+struct Scene {
+  std::vector<BoundaryCondition> conditions;
+  InitialState initial;
+  Vector2 body_acceleration{};  ///< m/s²
+  Damping damping;
+  double beta2 = 0.5;
+  std::optional<Surface> surface;
+  FrictionChoice friction;
+  std::vector<std::string> measured;  ///< boundaries whose load is recorded beyond those with a condition
+};
+
+/// When the run ends and how it gets there.
+struct TimeChoice {
+  std::optional<double> step;  ///< s; absent: `auto`
+  double safety = 0.9;         ///< `auto` takes this part of the stable step
+  double end = 0;              ///< s
+};
+
+Schema scene_schema();
+Scene read_scene(const Options& options, const Mesh& mesh);
+TimeChoice read_time(const Options& options);
+Model::Storage read_storage(const Options& options);
+
+struct TimeStep {
+  double step = 0;               ///< s
+  double limit = 0;              ///< stable step for the sharp frequency, s
+  double safe_limit = 0;         ///< the same for the safe bound, s
+  long count = 0;                ///< steps to the end
+  FrequencyBounds frequency;
+};
+
+/// Chooses the step, or checks the given one. Throws UserError when it is above the stability limit. Collective.
+TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time);
+
+std::string describe(const TimeStep& step, const Model& model);
+
+}  // namespace slipscale

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slipscale/contact/contact_nodes.hpp"
+#include "slipscale/dynamics/boundary_nodes.hpp"
+#include "slipscale/dynamics/ledger.hpp"
+#include "slipscale/dynamics/scene.hpp"
+
+namespace slipscale {
+
+/// A deformable body that moves in explicit time, pressed on a rigid surface that slides under it.
+///
+/// `advance` goes from t_n to t_{n+1}. Afterwards u is u_{n+1} while v, a, all forces, tractions and the works are
+/// those at t_n; `displacement_n` keeps u_n for a step that is observed.
+class SlidingBody {
+ public:
+  /// Throws UserError for contradictory conditions and a body that starts below the surface. Collective.
+  SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step);
+
+  /// One step; `observed` keeps a copy of u_n. One halo exchange, no reduction, no allocation.
+  void advance(bool observed);
+
+  long steps_done() const { return step_; }
+  double time_step() const { return time_step_; }
+  /// Time of the state that the last `advance` left: t_n, s.
+  double time() const { return static_cast<double>(step_ - 1) * time_step_; }
+
+  const Model& model() const { return model_; }
+  const Scene& scene() const { return scene_; }
+  MPI_Comm comm() const { return comm_; }
+
+  const Vector2* displacement_n() const { return kept_.data(); }      ///< u_n, all local nodes, m; observed steps
+  const Vector2* displacement() const { return u_.data(); }           ///< u_{n+1}, all local nodes, m
+  const Vector2* velocity() const { return v_.data(); }               ///< v_n, owned nodes, m/s
+  const Vector2* acceleration() const { return a_.data(); }           ///< a_n, owned nodes, m/s²
+  const Vector2* internal_force() const { return force_.data(); }     ///< K u_n, owned nodes, N/m
+  const ContactNodes& contact() const { return contact_; }            ///< at t_n
+  const BoundaryNodes& boundary_nodes() const { return boundary_; }   ///< at t_n
+  double surface_velocity() const;                                    ///< V at t_n, m/s
+  double surface_travel() const { return surface_travel_; }           ///< over the step just made, m
+
+  /// Force of the body on its support at an owned node of a boundary, −(K u_n + stiffness damping), N/m.
+  Vector2 force_on_support(int slot) const;
+
+  /// The energy balance at t_n of an observed step, summed over the ranks. Collective.
+  Energy energy() const;
+
+ private:
+  template <BulkPhysics physics>
+  void free_motion(const StepCoefficients& step);
+  using FreeMotionStep = void (SlidingBody::*)(const StepCoefficients&);
+  static FreeMotionStep free_motion_for(const BulkPhysics& physics);
+
+  void set_contact_nodes();
+  Energy local_energy() const;  ///< this rank's terms; residual and flowed left open
+  NodalState state() const { return {u_.data(), v_.data(), a_.data()}; }
+
+  MPI_Comm comm_;
+  const Model& model_;
+  const Scene scene_;
+  const double time_step_;
+  NodalVector u_, v_, a_;
+  std::vector<Vector2> force_, previous_force_, kept_;
+  std::vector<double> inverse_mass_;
+  BoundaryNodes boundary_;
+  Loads loads_;
+  std::unique_ptr<Supports> supports_;  ///< made once the initial displacement is known
+  ContactNodes contact_;
+  FrictionLaw law_;
+  BulkPhysics physics_;
+  FreeMotionStep free_motion_;
+  BulkSums bulk_;
+  EnergyLedger ledger_;
+  double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m
+  double start_energy_ = 0;   ///< Ê at t = 0 of this rank, J/m
+  double surface_travel_ = 0;
+  long step_ = 0;
+};
+
+}  // namespace slipscale

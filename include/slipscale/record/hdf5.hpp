@@ -1,0 +1,66 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace slipscale {
+
+/// The one owner of an HDF5 identifier; closing it never throws, so that a full disk cannot end the program
+/// here.
+template <herr_t (*Close)(hid_t)>
+class Hdf5Handle {
+ public:
+  Hdf5Handle() = default;
+  explicit Hdf5Handle(hid_t id) : id_(id) {}
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Hdf5Handle() { (void)close(); }
+
+  operator hid_t() const { return id_; }
+  bool open() const { return id_ >= 0; }
+  /// Closes now; negative when HDF5 could not (the identifier is given up all the same).
+  herr_t close() { return id_ >= 0 ? Close(std::exchange(id_, -1)) : 0; }
+
+ private:
+  hid_t id_ = -1;
+};
+
+using Hdf5File = Hdf5Handle<H5Fclose>;
+using Hdf5Group = Hdf5Handle<H5Gclose>;
+using Hdf5Dataset = Hdf5Handle<H5Dclose>;
+using Hdf5Space = Hdf5Handle<H5Sclose>;
+using Hdf5Type = Hdf5Handle<H5Tclose>;
+using Hdf5Properties = Hdf5Handle<H5Pclose>;
+using Hdf5Attribute = Hdf5Handle<H5Aclose>;
+
+/// Stops HDF5 from printing its error stack; `hdf5` reports instead. Cheap, may be repeated.
+void keep_hdf5_messages();
+
+/// Hands on the return value of an HDF5 function, or throws `LibraryError` "<what>: <HDF5's innermost
+/// message>" when it is negative: `hdf5(H5Dwrite(…), "cannot write /time of history.h5")`.
+hid_t hdf5(hid_t result, const std::string& what);
+
+/// The innermost message of HDF5's current error stack, which is the cause; the system's text ("No space left
+/// on device") where there is one.
+std::string hdf5_message();
+
+/// Writes a text as a fixed-length UTF-8 attribute. In a parallel file: collective.
+void write_attribute(hid_t object, const std::string& name, const std::string& value);
+/// Likewise a list of texts, one-dimensional.
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values);
+
+/// The two attributes that every dataset carries: SI unit ("1" for a ratio) and one line for people.
+void describe_dataset(hid_t dataset, const std::string& units, const std::string& description);
+
+/// Creates a dataset and the groups on its way. `chunk` empty: contiguous; else chunked. Shapes as HDF5 wants
+/// them.
+Hdf5Dataset create_dataset(hid_t file, const std::string& path, hid_t type, const std::vector<hsize_t>& shape,
+                           const std::vector<hsize_t>& largest = {}, const std::vector<hsize_t>& chunk = {});
+
+}  // namespace slipscale

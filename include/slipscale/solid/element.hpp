@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <span>
+
+#include "slipscale/base/vector2.hpp"
+
+namespace slipscale {
+
+/// Stiffness of a cell, [2 corners, 2 corners], corner-wise (x, y), N/m per metre of depth = Pa.
+using ElementStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 8, 8>;
+
+/// Strain-displacement matrix, [3, 2 corners], rows (xx, yy, xy) with engineering shear, 1/m.
+using StrainDisplacement = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 8>;
+
+/// ∫ Bᵀ C B dA of a linear triangle (three corners) or a bilinear quadrilateral (four, 2×2 Gauss points).
+/// `corners` run counter-clockwise, m; `elasticity` is [3, 3] in Voigt order (xx, yy, xy), Pa.
+ElementStiffness element_stiffness(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity);
+
+/// ∫ N_i dA, the row sum of the mass matrix over the density, one a corner, m². Unused entries are zero.
+std::array<double, 4> corner_areas(std::span<const Vector2> corners);
+
+/// B at the centre of the cell.
+StrainDisplacement centre_strain_displacement(std::span<const Vector2> corners);
+
+/// Values of the shape functions at `point` when it lies in the cell (tolerance 1e-9 of its size); false otherwise.
+bool shape_values_at(std::span<const Vector2> corners, const Vector2& point, std::array<double, 4>& values);
+
+/// Largest eigenvalue of M⁻¹K of one cell with the row-sum mass of density `density` [kg/m³], 1/s². The largest
+/// over all cells bounds that of the whole body from above (Irons and Treharne 1971).
+double largest_element_eigenvalue(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity,
+                                  double density);
+
+}  // namespace slipscale

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# The first study from a fresh clone on Debian 12: dependencies, build, mesh, run, picture.
+#   runs/first/run.sh [ranks]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+ranks=${1:-2}
+out=out/first
+
+cmake/install-dependencies.sh
+cmake --preset release
+cmake --build build/release --target slide
+
+mkdir -p "$out"
+gmsh -v 2 -2 -format msh41 runs/first/block.geo -o runs/first/block.msh
+
+if [ "$(id -u)" = 0 ]; then # as in a container
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+fi
+cores=$(lscpu --parse=CORE,SOCKET | grep -v '^#' | sort -u | wc -l) # Open MPI counts cores, not threads
+if [ "$ranks" -gt "$cores" ] || [ "$ranks" -gt "$(nproc)" ]; then
+  export OMPI_MCA_rmaps_base_oversubscribe=1
+fi
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
+mpirun -n "$ranks" build/release/slide -options_file_yaml runs/first/scene.yaml -output_folder "$out"
+
+PYTHONPATH=runs /usr/bin/python3 -m analysis.picture "$out" "$out/picture.png" --window 250e-6 400e-6
+
+cat <<END
+
+The picture:  $out/picture.png
+In numbers:   $out/summary.yaml
+In ParaView:  $out/fields.xdmf
+The rest:     $out/history.h5 and contact.h5; every option in effect: $out/run.yaml
+END

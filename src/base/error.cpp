@@ -1,0 +1,59 @@
+#include "slipscale/base/error.hpp"
+
+#include <utility>
+
+namespace slipscale {
+namespace {
+
+std::string petsc_message;
+
+/// Keeps PETSc's first message and prints nothing: whoever catches the exception decides what the user sees.
+PetscErrorCode keep_message(MPI_Comm comm, int line, const char* function, const char* file,
+                            PetscErrorCode code, PetscErrorType type, const char* message, void* context) {
+  // A crash never comes back to us, so PETSc's own report of where it was is the only one there will be.
+  if (code == PETSC_ERR_SIG)
+    return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
+  if (type == PETSC_ERROR_REPEAT) return code;
+  const char* generic = nullptr;
+  (void)PetscErrorMessage(code, &generic, nullptr);
+  petsc_message = message && *message ? message : generic ? generic : "unknown failure";
+  while (!petsc_message.empty() && petsc_message.back() == '\n') petsc_message.pop_back();
+  petsc_message += std::string(" [") + (function ? function : "?") + "() at " + (file ? file : "?") + ":" +
+                   std::to_string(line) + "]";
+  return code;
+}
+
+}  // namespace
+
+void keep_petsc_messages() { (void)PetscPushErrorHandler(keep_message, nullptr); }
+
+std::string take_petsc_message() { return std::exchange(petsc_message, {}); }
+
+void petsc(PetscErrorCode code, std::source_location where) {
+  if (code == 0) return;
+  std::string message = take_petsc_message();
+  if (message.empty()) {
+    const char* generic = nullptr;
+    (void)PetscErrorMessage(code, &generic, nullptr);
+    message = generic ? generic : "unknown failure";
+  }
+  throw LibraryError("PETSc error " + std::to_string(static_cast<int>(code)) + ": " + message +
+                     ", called from " + where.file_name() + ":" + std::to_string(where.line()));
+}
+
+void throw_together(MPI_Comm comm, const std::string& fault) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  int speaker = fault.empty() ? size : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
+  if (speaker == size) return;
+  std::string text = fault;
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, speaker, comm);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, speaker, comm);
+  throw UserError(text);
+}
+
+}  // namespace slipscale

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipscale/base/options.hpp"
+
+/// The grammar of option names: `material_<region>_young` is a prefix, a placeholder and a suffix.
+namespace slipscale::names {
+
+/// Known names by placeholder: `{"region", {"matrix", "inclusion"}}`.
+using Known = std::map<std::string, std::vector<std::string>>;
+
+struct Pattern {
+  std::string prefix, placeholder, suffix;  ///< all of the name is prefix when there is no placeholder
+};
+Pattern pattern(const std::string& declared);
+
+/// What stands for the placeholder in `name`; "" for an option without placeholder that is `name` itself.
+std::optional<std::string> filling(const Pattern& pattern, const std::string& name);
+
+/// `run_<entry>`: a place for information about a run, which nobody reads and nobody checks.
+bool ignored(const Pattern& pattern);
+
+/// PETSc's own options by first word: solvers and meshes. They count as unknown until PETSc has read them.
+bool petsc_object(const std::string& name);
+
+/// PETSc's own options that it reads when it starts or ends (`log_view`), by full name.
+bool petsc_system(const std::string& name);
+
+/// The name the user may have meant, with dash and placeholder filled in; empty when nothing is near.
+std::string meant(const std::string& name, const Schema& schema, const Known& known);
+
+}  // namespace slipscale::names

@@ -1,0 +1,130 @@
+#include "slipscale/base/options.hpp"
+
+#include <stdexcept>
+
+#include "names.hpp"
+#include "slipscale/base/error.hpp"
+#include "value.hpp"
+
+namespace slipscale {
+namespace {
+
+struct Entry {
+  bool given = false;
+  const char* value = nullptr;  ///< null when nothing stands behind the option
+};
+
+Entry find(const std::string& name) {
+  PetscBool found = PETSC_FALSE;
+  Entry entry;
+  petsc(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &entry.value, &found));
+  entry.given = found;
+  return entry;
+}
+
+/// PETSc answers a question for `-material_fibre_2_young` with the value of `-material_fibre_young` when only
+/// that one is given: it drops numbers between underscores. Both names then share one stored value.
+bool borrowed(const std::string& name, const Entry& entry) {
+  for (std::size_t begin = name.find('_'); begin != std::string::npos; begin = name.find('_', begin + 1)) {
+    const std::size_t end = name.find_first_not_of("0123456789", begin + 1);
+    if (end == std::string::npos || end == begin + 1 || name[end] != '_') continue;
+    const Entry shorter = find(name.substr(0, begin) + name.substr(end));
+    if (shorter.given && shorter.value == entry.value) return true;
+  }
+  return false;
+}
+
+Entry lookup(const std::string& name) {
+  const Entry entry = find(name);
+  return entry.given && borrowed(name, entry) ? Entry{} : entry;
+}
+
+[[noreturn]] void missing(const std::string& name, const Option& option) {
+  const std::string what = option.help.substr(0, option.help.find_last_not_of('.') + 1);
+  throw UserError("-" + name + " is needed here but not given (" + what + "); it must be " +
+                  value::wanted(option));
+}
+
+}  // namespace
+
+Schema operator+(Schema left, const Schema& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+std::optional<std::string> Options::value(const std::string& name) const {
+  const Match found = match(name);
+  if (!found.option) throw std::logic_error("option '" + name + "' is read but no schema declares it");
+  const Option& option = *found.option;
+  const Entry entry = lookup(name);
+  if (entry.given) {
+    if (!entry.value && option.kind != Kind::flag)
+      throw UserError("-" + name + " has no value; write after it " + value::wanted(option));
+    const std::string text = entry.value ? entry.value : "true";
+    value::check(option, name, text);
+    return effective_[name] = text;
+  }
+  if (option.fallback == required) missing(name, option);
+  if (option.fallback == absent) return std::nullopt;
+  if (!option.fallback.empty()) effective_[name] = option.fallback;
+  return option.fallback;
+}
+
+std::string Options::needed(const std::string& name) const {
+  const auto text = value(name);
+  if (!text) missing(name, *match(name).option);
+  return *text;
+}
+
+bool Options::given(const std::string& name) const { return lookup(name).given; }
+
+double Options::real(const std::string& name) const {
+  const auto x = find_real(name);
+  if (!x) missing(name, *match(name).option);
+  return *x;
+}
+
+std::optional<double> Options::find_real(const std::string& name) const {
+  const auto text = value(name);
+  if (!text) return std::nullopt;
+  const auto x = value::number(*text);
+  // `auto` of a text that may be a number as well: the caller has to ask for the text first.
+  if (!x) throw std::logic_error("option '" + name + "' is read as a number but holds '" + *text + "'");
+  return x;
+}
+
+PetscInt Options::integer(const std::string& name) const {
+  const auto n = find_integer(name);
+  if (!n) missing(name, *match(name).option);
+  return *n;
+}
+
+std::optional<PetscInt> Options::find_integer(const std::string& name) const {
+  const auto text = value(name);
+  if (!text) return std::nullopt;
+  const auto n = value::integer(*text);
+  if (!n) throw std::logic_error("option '" + name + "' is read as a whole number but holds '" + *text + "'");
+  return n;
+}
+
+std::string Options::text(const std::string& name) const { return needed(name); }
+
+std::optional<std::string> Options::find_text(const std::string& name) const { return value(name); }
+
+bool Options::flag(const std::string& name) const {
+  const auto truth = value::truth(needed(name));
+  if (!truth) throw std::logic_error("option '" + name + "' is read as a flag but is declared otherwise");
+  return *truth;
+}
+
+std::vector<double> Options::reals(const std::string& name) const {
+  std::vector<double> numbers;
+  for (const std::string& item : value::items(value(name).value_or(""))) {
+    const auto x = value::number(item);
+    if (!x) throw std::logic_error("option '" + name + "' is read as numbers but is declared otherwise");
+    numbers.push_back(*x);
+  }
+  return numbers;
+}
+
+}  // namespace slipscale

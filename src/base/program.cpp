@@ -1,0 +1,121 @@
+#include "slipscale/base/program.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "command_line.hpp"
+#include "scene_file.hpp"
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/version.hpp"
+
+namespace slipscale {
+namespace {
+
+int rank_of_world() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+void complain(const std::string& program, std::string sentence) {
+  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), sentence.c_str());
+  std::fflush(stderr);
+}
+
+/// Other ranks may be waiting in a collective call that this one will never join, so all are ended.
+[[noreturn]] void abort_all(const std::string& program, const std::string& what) {
+  complain(program, "failed on rank " + std::to_string(rank_of_world()) + ": " + what);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();
+}
+
+/// 0 when `work` returns, 2 when all ranks threw the same `UserError`.
+int guarded(const std::string& program, const std::function<void()>& work) {
+  try {
+    work();
+    return 0;
+  } catch (const UserError& error) {
+    if (rank_of_world() == 0) complain(program, error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    abort_all(program, "out of memory; use more ranks or a coarser mesh");
+  } catch (const std::exception& error) {
+    abort_all(program, error.what());
+  } catch (...) {
+    abort_all(program, "an exception that says nothing");
+  }
+}
+
+/// The scenes one after the other, then the command line over them.
+void fill_database(const CommandLine& line, const std::vector<std::string>& scenes,
+                   std::vector<char*> arguments) {
+  for (std::size_t k = 0; k < scenes.size(); ++k) insert_scene(line.scene_files[k], scenes[k]);
+  petsc(PetscOptionsInsertArgs(nullptr, static_cast<int>(arguments.size()) - 2, arguments.data() + 1));
+}
+
+/// PETSc lists options nobody read, at length; we have told the user already, and better.
+void silence_leftovers() {
+  PetscBool given = PETSC_FALSE;
+  petsc(PetscOptionsHasName(nullptr, nullptr, "-options_left", &given));
+  if (!given) petsc(PetscOptionsSetValue(nullptr, "-options_left", "no"));
+}
+
+int run_in_petsc(const Program& program, CommandLine line, const std::vector<std::string>& scenes) {
+  std::vector<char*> arguments;
+  for (std::string& argument : line.arguments) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
+  int argc = static_cast<int>(arguments.size()) - 1;
+  char** argv = arguments.data();
+  // Before PETSc starts, so that its debugging options (-on_error_abort) come on top of ours.
+  keep_petsc_messages();
+  petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
+  const int code = guarded(program.name, [&] {
+    fill_database(line, scenes, arguments);
+    Options options(program.name, program.schema);
+    program.run(options);
+  });
+  silence_leftovers();
+  petsc(PetscFinalize());
+  return code;
+}
+
+std::string version_line(const std::string& program) {
+  return format("%s %s, PETSc %d.%d.%d\n", program.c_str(), version, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
+                PETSC_VERSION_SUBMINOR);
+}
+
+int answer(int argc, char** argv, const Program& program) {
+  const CommandLine line = read_command_line(argc, argv, program.name, program.schema);
+  if (line.help) {
+    print(manual(program.name, program.purpose, program.schema));
+    return 0;
+  }
+  if (line.version) {
+    print(version_line(program.name));
+    return 0;
+  }
+  std::vector<std::string> scenes;
+  for (const std::string& file : line.scene_files) scenes.push_back(read_on_all("-options_file_yaml", file));
+  for (std::size_t k = 1; k + 1 < line.arguments.size(); ++k)
+    if (line.arguments[k] == "-options_file") (void)read_on_all("-options_file", line.arguments[k + 1]);
+  return run_in_petsc(program, line, scenes);
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const Program& program) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int code = 0;
+  const int fault = guarded(program.name, [&] { code = answer(argc, argv, program); });
+  MPI_Finalize();
+  return std::max(code, fault);
+}
+
+}  // namespace slipscale

@@ -1,0 +1,81 @@
+#include "slipscale/contact/law.hpp"
+
+#include <cmath>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+
+Schema friction_schema() {
+  return {
+      {"friction_law", Kind::text, "", required, range::one_of({"none", "coulomb", "regularized"}),
+       "law of friction between body and surface; regularized is the simplified Prakash-Clifton law"},
+      {"friction_coefficient", Kind::real, "1", required, range::non_negative, "coefficient of friction, mu"},
+      {"friction_length", Kind::real, "m", required, range::non_negative,
+       "slip distance over which the traction follows the pressure, L*; T = L*/|V|"},
+      {"friction_time", Kind::real, "s", absent, range::non_negative,
+       "relaxation time T itself, in place of the length"},
+      {"friction_rate", Kind::text, "", "surface", range::one_of({"surface", "slip"}),
+       "what T is made with: the surface's speed, T = L*/|V|, or the slip rate, T = L/(|slip rate| + V*)"},
+      {"friction_rate_reference", Kind::real, "m/s", required, range::positive, "V* of `rate: slip`"},
+      {"friction_threshold", Kind::text, "", "instantaneous", range::one_of({"instantaneous", "regularized"}),
+       "a node sticks while |tau| is below mu p (the paper's), or below a strength that itself relaxes to mu p"},
+  };
+}
+
+FrictionChoice read_friction(const Options& options, const Surface& surface) {
+  FrictionChoice choice;
+  const std::string law = options.text("friction_law");
+  if (law == "none") return choice;
+  choice.law = law == "coulomb" ? FrictionChoice::Law::coulomb : FrictionChoice::Law::regularized;
+  choice.coefficient = options.real("friction_coefficient");
+  if (choice.law == FrictionChoice::Law::coulomb) return choice;
+  choice.stored_strength = options.text("friction_threshold") == "regularized";
+  choice.by_slip_rate = options.text("friction_rate") == "slip";
+  const auto time = options.find_real("friction_time");
+  if (time && options.given("friction_length"))
+    throw UserError("-friction_time contradicts -friction_length; give the relaxation time or the length");
+  if (choice.by_slip_rate) {
+    if (time) throw UserError("-friction_time has no meaning with -friction_rate slip; give -friction_length");
+    choice.length = options.real("friction_length");
+    choice.rate_reference = options.real("friction_rate_reference");
+  } else if (time) {
+    choice.time = *time;
+  } else {
+    choice.length = options.real("friction_length");
+    if (surface.speed == 0)
+      throw UserError("-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -friction_time in s, "
+                      "or -friction_rate slip");
+    choice.time = choice.length / std::abs(surface.speed);
+  }
+  return choice;
+}
+
+FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
+  const double mu = choice.coefficient;
+  if (choice.law == FrictionChoice::Law::none) return Frictionless{};
+  if (choice.law == FrictionChoice::Law::coulomb) return Coulomb{mu};
+  if (choice.by_slip_rate) {
+    if (choice.stored_strength)
+      return SlipRate<RegularizedStrength>{mu, choice.length, choice.rate_reference, time_step};
+    return SlipRate<RegularizedInstantaneous>{mu, choice.length, choice.rate_reference, time_step};
+  }
+  const Relaxation step = relaxation(time_step / choice.time);
+  if (choice.stored_strength) return RegularizedStrength{mu, step};
+  return RegularizedInstantaneous{mu, step};
+}
+
+std::string describe(const FrictionChoice& choice) {
+  if (choice.law == FrictionChoice::Law::none) return "none";
+  const std::string mu = format("mu %g", choice.coefficient);
+  if (choice.law == FrictionChoice::Law::coulomb) return "coulomb, " + mu;
+  const std::string relaxation = choice.by_slip_rate
+                                     ? format("T = L/(|slip rate| + V*), L %g m, V* %g m/s", choice.length,
+                                              choice.rate_reference)
+                                     : "T " + engineering(choice.time, "s");
+  return "regularized, " + mu + ", " + relaxation + ", threshold " +
+         (choice.stored_strength ? "regularized" : "instantaneous");
+}
+
+}  // namespace slipscale

@@ -1,0 +1,38 @@
+#include "slipscale/contact/surface.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace slipscale {
+
+double cosine_ramp(double time, double duration) {
+  if (time >= duration) return 1;
+  return time <= 0 ? 0 : 0.5 * (1 - std::cos(std::numbers::pi * time / duration));
+}
+
+double Surface::velocity(double time) const { return speed * cosine_ramp(time, ramp); }
+
+double Surface::travel(double time) const {
+  if (time >= ramp) return speed * (time - 0.5 * ramp);
+  return 0.5 * speed * (time - ramp / std::numbers::pi * std::sin(std::numbers::pi * time / ramp));
+}
+
+Schema surface_schema() {
+  return {
+      {"surface_boundary", Kind::text, "", absent, range::any,
+       "the body's boundary that meets the rigid surface; without it there is no surface"},
+      {"surface_height", Kind::real, "m", "0", range::any, "height of the rigid surface"},
+      {"surface_speed", Kind::real, "m/s", required, range::any, "speed of the surface along +x, V"},
+      {"surface_speed_ramp", Kind::real, "s", "0", range::non_negative,
+       "time in which the surface reaches its speed, along a cosine"},
+  };
+}
+
+bool has_surface(const Options& options) { return options.given("surface_boundary"); }
+
+Surface read_surface(const Options& options) {
+  return {options.text("surface_boundary"), options.real("surface_height"), options.real("surface_speed"),
+          options.real("surface_speed_ramp")};
+}
+
+}  // namespace slipscale

@@ -1,0 +1,53 @@
+#include "slipscale/dynamics/model.hpp"
+
+#include "slipscale/solid/mass.hpp"
+
+namespace slipscale {
+namespace {
+
+std::variant<PairStiffness<double>, PairStiffness<float>> assemble(const Mesh& mesh,
+                                                                   const std::vector<Material>& materials,
+                                                                   Model::Storage storage) {
+  if (storage == Model::Storage::single) return PairStiffness<float>(mesh, materials);
+  return PairStiffness<double>(mesh, materials);
+}
+
+}  // namespace
+
+Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage)
+    : mesh(body),
+      materials(std::move(regions)),
+      mass(lumped_mass(body, materials)),
+      stiffness(assemble(body, materials, storage)) {}
+
+NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts) {
+  const auto ghosts = static_cast<PetscInt>(with_ghosts ? nodes.ghosts.size() : 0);
+  petsc(VecCreateGhostBlock(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(), vec_.put()));
+  petsc(VecSet(vec_, 0));
+  petsc(VecGhostGetLocalForm(vec_, &local_));
+  petsc(VecSet(local_, 0));
+  // Held for the vector's life: host memory does not move, and the step loop should not ask for it every time.
+  PetscScalar* values = nullptr;
+  petsc(VecGetArray(local_, &values));
+  array_ = reinterpret_cast<Vector2*>(values);
+}
+
+NodalVector::~NodalVector() {
+  if (updating_) (void)VecGhostUpdateEnd(vec_, INSERT_VALUES, SCATTER_FORWARD);  // PETSc refuses to free it before
+  auto* values = reinterpret_cast<PetscScalar*>(array_);
+  (void)VecRestoreArray(local_, &values);
+  (void)VecGhostRestoreLocalForm(vec_, &local_);
+}
+
+void NodalVector::begin_update() {
+  petsc(VecGhostUpdateBegin(vec_, INSERT_VALUES, SCATTER_FORWARD));
+  updating_ = true;
+}
+
+void NodalVector::end_update() {
+  if (!updating_) return;
+  petsc(VecGhostUpdateEnd(vec_, INSERT_VALUES, SCATTER_FORWARD));
+  updating_ = false;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,119 @@
+#include "slipscale/dynamics/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+namespace {
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+const Boundary& known_boundary(const Mesh& mesh, const std::string& name, const char* option) {
+  const Boundary* boundary = mesh.find_boundary(name);
+  if (!boundary)
+    throw UserError("-" + std::string(option) + ": the mesh has no boundary '" + name + "'; it has " +
+                    (mesh.boundaries.empty() ? "none, add Physical Curve(…) to its geometry" : list(mesh.boundary_names())));
+  if (boundary->interior)
+    throw UserError("-" + std::string(option) + ": boundary '" + name +
+                    "' lies inside the body (a periodic seam or an interface); choose an outer one");
+  return *boundary;
+}
+
+}  // namespace
+
+Schema scene_schema() {
+  const Schema own{
+      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::any, "acceleration of every part of the body, ax,ay (gravity)"},
+      {"damping_mass", Kind::real, "1/s", "0", range::non_negative, "Rayleigh damping proportional to mass, a"},
+      {"damping_stiffness", Kind::real, "s", "0", range::non_negative,
+       "Rayleigh damping proportional to stiffness, b, lagged by one step"},
+      {"time_step", Kind::text, "s", "auto", range::one_of_or_number({"auto"}, range::positive),
+       "auto: safety times the stable step; or seconds, refused above the stable step"},
+      {"time_safety", Kind::real, "1", "0.9", range::unit, "part of the stable step that auto takes"},
+      {"time_end", Kind::real, "s", required, range::positive, "simulated time at the end of the run"},
+      {"time_beta2", Kind::real, "1", "0.5", {"in [0.5, 1]", [](double x) { return x >= 0.5 && x <= 1; }},
+       "beta2 of the scheme: 0.5 is central difference, more dissipates at high frequency"},
+      {"stiffness_storage", Kind::text, "", "double", range::one_of({"double", "single"}),
+       "precision in which the stiffness is stored; arithmetic is always double"},
+  };
+  return own + boundary_schema() + initial_schema() + surface_schema() + friction_schema();
+}
+
+Scene read_scene(const Options& options, const Mesh& mesh) {
+  Scene scene;
+  scene.conditions = read_conditions(options, mesh);
+  scene.initial = read_initial(options);
+  const auto acceleration = options.reals("body_acceleration");
+  if (acceleration.size() != 2) throw UserError("-body_acceleration needs two numbers ax,ay in m/s2");
+  scene.body_acceleration = {acceleration[0], acceleration[1]};
+  scene.damping = {options.real("damping_mass"), options.real("damping_stiffness")};
+  scene.beta2 = options.real("time_beta2");
+  if (has_surface(options)) {
+    scene.surface = read_surface(options);
+    known_boundary(mesh, scene.surface->boundary, "surface_boundary");
+    scene.friction = read_friction(options, *scene.surface);
+  } else {
+    for (const char* option : {"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
+                               "friction_coefficient", "friction_length", "friction_time"})
+      if (options.given(option))
+        throw UserError("-" + std::string(option) +
+                        " has no effect without -surface_boundary; name the boundary that meets the surface");
+  }
+  if (const auto measured = options.find_text("history_boundary"))
+    scene.measured.push_back(known_boundary(mesh, *measured, "history_boundary").name);
+  return scene;
+}
+
+TimeChoice read_time(const Options& options) {
+  TimeChoice time;
+  const std::string step = options.text("time_step");
+  if (step != "auto") time.step = std::stod(step);
+  time.safety = options.real("time_safety");
+  time.end = options.real("time_end");
+  return time;
+}
+
+Model::Storage read_storage(const Options& options) {
+  return options.text("stiffness_storage") == "single" ? Model::Storage::single : Model::Storage::full;
+}
+
+TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time) {
+  TimeStep choice;
+  choice.frequency = largest_frequency(comm, model);
+  choice.limit = stable_step(choice.frequency.sharp, scene.beta2, scene.damping);
+  choice.safe_limit = stable_step(choice.frequency.safe, scene.beta2, scene.damping);
+  choice.step = time.step ? *time.step : time.safety * choice.limit;
+  if (choice.step > choice.limit)
+    throw UserError(format("-time_step is %.6g s, above the stable step of %.6g s for this mesh, beta2 and damping; "
+                           "use at most %.4g or auto",
+                           choice.step, choice.limit, 0.99 * choice.limit));
+  choice.count = static_cast<long>(std::ceil(time.end / choice.step * (1 - 1e-12)));
+  return choice;
+}
+
+std::string describe(const TimeStep& step, const Model& model) {
+  const Mesh& mesh = model.mesh;
+  const Vector2 size{mesh.upper[0] - mesh.lower[0], mesh.upper[1] - mesh.lower[1]};
+  std::string text = "block " + engineering(size[0], "m") + " x " + engineering(size[1], "m") + ", shortest edge " +
+                     engineering(mesh.shortest_edge, "m") + "\n";
+  for (std::size_t r = 0; r < model.materials.size(); ++r) {
+    const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
+    text += format("  waves along y in %s: %.5g and %.5g m/s, crossing the height in %s\n",
+                   mesh.regions[r].name.c_str(), speeds.fast, speeds.slow,
+                   engineering(size[1] / speeds.fast, "s").c_str());
+  }
+  text += format("largest frequency: %.4g 1/s (Lanczos), at most %.4g 1/s (largest element)\n", step.frequency.sharp,
+                 step.frequency.safe);
+  text += "stable step: " + engineering(step.limit, "s") + " (Lanczos), " + engineering(step.safe_limit, "s") +
+          " (largest element); step used: " + engineering(step.step, "s") +
+          format(" (%.3f of the limit), %ld steps\n", step.step / step.limit, step.count);
+  return text;
+}
+
+}  // namespace slipscale

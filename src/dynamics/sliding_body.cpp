@@ -1,0 +1,167 @@
+#include "slipscale/dynamics/sliding_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+namespace {
+
+std::vector<std::string> boundaries_in_use(const Scene& scene) {
+  std::vector<std::string> names = scene.measured;
+  for (const auto& condition : scene.conditions) names.push_back(condition.boundary);
+  if (scene.surface) names.push_back(scene.surface->boundary);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+BulkPhysics bulk_physics(const Scene& scene) {
+  return {scene.damping.mass > 0, scene.damping.stiffness > 0, scene.beta2 > 0.5};
+}
+
+/// Half of each edge of the boundary to each of its ends, by local node, m.
+std::vector<double> tributary_lengths(const Mesh& mesh, const Boundary& boundary) {
+  std::vector<double> length(static_cast<std::size_t>(mesh.nodes.size()), 0);
+  for (const BoundaryEdge& edge : boundary.edges)
+    for (int end : edge.nodes) length[end] += 0.5 * std::hypot(edge.outward[0], edge.outward[1]);
+  return length;
+}
+
+}  // namespace
+
+SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step)
+    : comm_(comm),
+      model_(model),
+      scene_(scene),
+      time_step_(time_step),
+      u_(comm, model.mesh.nodes, true),
+      v_(comm, model.mesh.nodes, false),
+      a_(comm, model.mesh.nodes, false),
+      force_(model.mesh.nodes.number.size(), {0, 0}),
+      kept_(model.mesh.nodes.number.size(), {0, 0}),
+      boundary_(model, boundaries_in_use(scene)),
+      loads_(model.mesh, scene.conditions, boundary_),
+      law_(friction_law(scene.friction, time_step)),
+      physics_(bulk_physics(scene)),
+      free_motion_(free_motion_for(physics_)),
+      ledger_(scene.beta2, time_step) {
+  set_initial(scene.initial, model.mesh, model.materials, u_.data(), v_.data());
+  supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
+  for (const double m : model.mass) inverse_mass_.push_back(1 / m);
+  if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
+  if (scene_.surface) set_contact_nodes();
+  model_.multiply(u_.data(), force_.data());
+  for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
+  for (int i = 0; i < model.mesh.nodes.owned; ++i)
+    start_gravity_ += model.mass[i] * (scene_.body_acceleration[0] * u_.data()[i][0] +
+                                       scene_.body_acceleration[1] * u_.data()[i][1]);
+}
+
+void SlidingBody::set_contact_nodes() {
+  const Mesh& mesh = model_.mesh;
+  const Boundary& boundary = *mesh.find_boundary(scene_.surface->boundary);
+  const auto length = tributary_lengths(mesh, boundary);
+  std::string fault;
+  for (int i : boundary.nodes) {
+    const int slot = boundary_.slot_of(i);
+    if (supports_->prescribes(slot, 1)) continue;
+    const double clearance = mesh.nodes.position[i][1] - scene_.surface->height;
+    const double tolerance = 1e-9 * (mesh.upper[1] - mesh.lower[1]);
+    if (clearance + u_.data()[i][1] < -tolerance)
+      fault = format("-surface_height is %g m, but the body reaches down to %g m at x = %g m; lower the surface or lift "
+                     "the body with -initial_gap",
+                     scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], mesh.nodes.position[i][0]);
+    contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
+  }
+  throw_together(comm_, fault);
+  const InitialState& initial = scene_.initial;
+  if (initial.pressure != 0 || initial.shear != 0)
+    contact_.start_memory(scene_.friction.stored_strength ? std::abs(initial.shear) : initial.shear, initial.pressure);
+}
+
+template <BulkPhysics physics>
+void SlidingBody::free_motion(const StepCoefficients& step) {
+  const BulkArrays arrays{inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), v_.data(), a_.data()};
+  BulkSums sums;
+  const FreeMotion<physics> move(arrays, step, scene_.damping, scene_.body_acceleration, sums);
+  std::visit([&](const auto& pairs) { pairs.multiply(u_.data(), force_.data(), move); }, model_.stiffness);
+  bulk_ = sums;
+}
+
+SlidingBody::FreeMotionStep SlidingBody::free_motion_for(const BulkPhysics& physics) {
+  static constexpr FreeMotionStep table[2][2][2] = {
+      {{&SlidingBody::free_motion<BulkPhysics{false, false, false}>,
+        &SlidingBody::free_motion<BulkPhysics{false, false, true}>},
+       {&SlidingBody::free_motion<BulkPhysics{false, true, false}>,
+        &SlidingBody::free_motion<BulkPhysics{false, true, true}>}},
+      {{&SlidingBody::free_motion<BulkPhysics{true, false, false}>,
+        &SlidingBody::free_motion<BulkPhysics{true, false, true}>},
+       {&SlidingBody::free_motion<BulkPhysics{true, true, false}>,
+        &SlidingBody::free_motion<BulkPhysics{true, true, true}>}}};
+  return table[physics.mass_damping][physics.stiffness_damping][physics.numerical_dissipation];
+}
+
+void SlidingBody::advance(bool observed) {
+  const double now = static_cast<double>(step_) * time_step_, next = static_cast<double>(step_ + 1) * time_step_;
+  const bool first = step_ == 0;
+  const StepCoefficients step = first ? first_step(time_step_) : beta2_step(time_step_, scene_.beta2);
+
+  u_.end_update();
+  if (observed || first) std::copy_n(u_.data(), kept_.size(), kept_.data());
+  boundary_.remember(state(), force_.data());
+  if (physics_.keeps_force()) std::swap(force_, previous_force_);
+
+  (this->*free_motion_)(step);
+  if (!loads_.empty()) loads_.apply(now, step, boundary_, state());
+  if (!supports_->empty()) supports_->apply(next, step, boundary_, state());
+  if (scene_.surface) {
+    surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
+    const ContactStep contact{step.displacement, step.velocity, surface_travel_, scene_.surface->velocity(now)};
+    std::visit([&](const auto& law) {
+      contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), state());
+    }, law_);
+  }
+  u_.begin_update();
+
+  ledger_.add(boundary_, contact_, state(), surface_travel_);
+  if (physics_.keeps_force())
+    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, state(), force_.data(), first);
+  ++step_;
+  if (first) start_energy_ = local_energy().kinetic + local_energy().strain;
+}
+
+double SlidingBody::surface_velocity() const { return scene_.surface ? scene_.surface->velocity(time()) : 0; }
+
+Vector2 SlidingBody::force_on_support(int slot) const {
+  const Vector2 &now = force_[boundary_.node[slot]], &before = boundary_.internal[slot];
+  const double lag = scene_.damping.stiffness / time_step_;
+  return {-(now[0] + lag * (now[0] - before[0])), -(now[1] + lag * (now[1] - before[1]))};
+}
+
+Energy SlidingBody::local_energy() const {
+  Energy energy = ledger_.works();
+  const double correction = 0.25 * time_step_ * time_step_ * scene_.beta2;
+  for (int i = 0; i < model_.mesh.nodes.owned; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      const double v = v_.data()[i][axis], a = a_.data()[i][axis], m = model_.mass[i];
+      energy.kinetic += 0.5 * m * v * v - correction * m * a * a;
+      energy.strain += 0.5 * kept_[i][axis] * force_[i][axis];
+      energy.body_force += m * scene_.body_acceleration[axis] * kept_[i][axis];
+    }
+  energy.body_force -= start_gravity_;
+  return energy;
+}
+
+Energy SlidingBody::energy() const {
+  Energy energy = local_energy();
+  double start = start_energy_;
+  static_assert(sizeof(Energy) % sizeof(double) == 0);
+  MPI_Allreduce(MPI_IN_PLACE, &energy, sizeof(Energy) / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, &start, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  close_balance(energy, start);
+  return energy;
+}
+
+}  // namespace slipscale

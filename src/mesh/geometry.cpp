@@ -1,0 +1,65 @@
+#include <algorithm>
+
+#include "stages.hpp"
+
+namespace slipscale::mesh_stages {
+namespace {
+
+double cross(const Vector2& o, const Vector2& a, const Vector2& b) {
+  return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+}
+
+}  // namespace
+
+double CellGeometry::area() const {
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) twice += cross(corners[0], corners[k], corners[k + 1]);
+  return 0.5 * twice;
+}
+
+double CellGeometry::smallest_corner() const {
+  const std::size_t n = corners.size();
+  double smallest = cross(corners[0], corners[1], corners[n - 1]);
+  for (std::size_t k = 1; k < n; ++k)
+    smallest = std::min(smallest, cross(corners[k], corners[(k + 1) % n], corners[k - 1]));
+  return smallest;
+}
+
+CellGeometry cell_geometry(DM dm, PetscInt cell) {
+  CellGeometry geometry;
+  PetscInt first = 0, last = 0, size = 0;
+  petsc(DMPlexGetDepthStratum(dm, 0, &first, &last));
+  PetscInt* closure = nullptr;
+  petsc(DMPlexGetTransitiveClosure(dm, cell, PETSC_TRUE, &size, &closure));
+  for (PetscInt k = 0; k < size; ++k)
+    if (closure[2 * k] >= first && closure[2 * k] < last) geometry.vertices.push_back(closure[2 * k]);
+  petsc(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &size, &closure));
+
+  // Cell coordinates, not vertex coordinates: on a torus a vertex has one position, a cell at the seam needs two.
+  PetscBool by_cell = PETSC_FALSE;
+  PetscInt count = 0;
+  const PetscScalar* array = nullptr;
+  PetscScalar* values = nullptr;
+  petsc(DMPlexGetCellCoordinates(dm, cell, &by_cell, &count, &array, &values));
+  geometry.corners.resize(static_cast<std::size_t>(count / 2));
+  for (std::size_t k = 0; k < geometry.corners.size(); ++k)
+    geometry.corners[k] = {values[2 * k], values[2 * k + 1]};
+  petsc(DMPlexRestoreCellCoordinates(dm, cell, &by_cell, &count, &array, &values));
+  return geometry;
+}
+
+Vector2 vertex_position(DM dm, PetscInt vertex) {
+  Vec coordinates = nullptr;
+  PetscSection section = nullptr;
+  petsc(DMGetCoordinatesLocal(dm, &coordinates));
+  petsc(DMGetCoordinateSection(dm, &section));
+  PetscInt offset = 0;
+  petsc(PetscSectionGetOffset(section, vertex, &offset));
+  const PetscScalar* values = nullptr;
+  petsc(VecGetArrayRead(coordinates, &values));
+  const Vector2 position{values[offset], values[offset + 1]};
+  petsc(VecRestoreArrayRead(coordinates, &values));
+  return position;
+}
+
+}  // namespace slipscale::mesh_stages

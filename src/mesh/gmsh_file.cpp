@@ -1,0 +1,80 @@
+#include "gmsh_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace slipscale::mesh_stages {
+namespace {
+
+/// FNV-1a, 64 bit (Fowler, Noll, Vo): enough to tell two meshes apart, not a defence against anyone.
+std::uint64_t fnv1a(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ull;
+  return hash;
+}
+
+std::vector<PhysicalName> physical_names(const std::string& bytes) {
+  std::vector<PhysicalName> names;
+  const auto start = bytes.find("$PhysicalNames");
+  if (start == std::string::npos) return names;
+  const auto end = bytes.find("$EndPhysicalNames", start);
+  std::istringstream section(bytes.substr(start, end - start));
+  std::string line;
+  std::getline(section, line);
+  std::getline(section, line);
+  while (std::getline(section, line)) {
+    std::istringstream fields(line);
+    PhysicalName entry;
+    if (!(fields >> entry.dimension >> entry.tag)) continue;
+    const auto open = line.find('"'), close = line.rfind('"');
+    if (open == std::string::npos || close <= open) continue;
+    entry.name = line.substr(open + 1, close - open - 1);
+    names.push_back(entry);
+  }
+  return names;
+}
+
+}  // namespace
+
+GmshFile scan_gmsh(const std::string& path, std::string& fault) {
+  GmshFile file;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    fault = "-mesh_file: cannot read '" + path + "'; give the path of a gmsh file (MSH 4.1)";
+    return file;
+  }
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const auto head = bytes.find("$MeshFormat");
+  if (head == std::string::npos || head > 4096 ||
+      !(std::istringstream(bytes.substr(head + 11, 64)) >> file.version)) {
+    fault = "-mesh_file: '" + path + "' is not a gmsh mesh; write one with gmsh -2 -format msh41";
+    return file;
+  }
+  file.checksum = fnv1a(bytes);
+  file.names = physical_names(bytes);
+  file.has_periodic_section = bytes.find("\n$Periodic") != std::string::npos;
+  return file;
+}
+
+std::string fault_in_names(const std::string& path, const std::vector<PhysicalName>& names) {
+  static const std::vector<std::string> taken{"depth", "celltype", "vtk", "ghost", "dim", "pyre", "all"};
+  if (std::none_of(names.begin(), names.end(), [](const auto& n) { return n.dimension == 2; }))
+    return "mesh '" + path + "' names no region; add Physical Surface(\"matrix\") = {…}; to its geometry";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].name.empty() || names[i].name.find_first_of(" \t,:#'") != std::string::npos)
+      return "mesh '" + path + "' has a physical group named '" + names[i].name +
+             "', which no option can spell; use letters, digits, '-' and '_'";
+    if (std::find(taken.begin(), taken.end(), names[i].name) != taken.end())
+      return "mesh '" + path + "' has a physical group named '" + names[i].name +
+             "', a name that has a meaning of its own; rename it";
+    for (std::size_t j = 0; j < i; ++j)
+      if (names[i].name == names[j].name)
+        return "mesh '" + path + "' uses the name '" + names[i].name +
+               "' for two physical groups; give each its own";
+  }
+  return "";
+}
+
+}  // namespace slipscale::mesh_stages

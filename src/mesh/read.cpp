@@ -1,0 +1,79 @@
+#include "slipscale/mesh/read.hpp"
+
+#include "gmsh_file.hpp"
+#include "stages.hpp"
+
+namespace slipscale {
+namespace {
+
+using mesh_stages::GmshFile;
+
+void broadcast(MPI_Comm comm, std::string& text) {
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm);
+}
+
+void broadcast(MPI_Comm comm, GmshFile& file) {
+  int count = static_cast<int>(file.names.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
+  MPI_Bcast(&file.checksum, 1, MPI_UINT64_T, 0, comm);
+  file.names.resize(static_cast<std::size_t>(count));
+  for (auto& entry : file.names) {
+    MPI_Bcast(&entry.dimension, 1, MPI_INT, 0, comm);
+    MPI_Bcast(&entry.tag, 1, MPI_INT, 0, comm);
+    broadcast(comm, entry.name);
+  }
+}
+
+GmshFile head_of(MPI_Comm comm, const std::string& path) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  GmshFile file;
+  std::string fault;
+  if (rank == 0) {
+    file = mesh_stages::scan_gmsh(path, fault);
+    if (fault.empty() && file.version < 4 && file.has_periodic_section)
+      fault = "mesh '" + path + "' is periodic but written as MSH 2, which loses periodicity; use gmsh -format msh41";
+    if (fault.empty()) fault = mesh_stages::fault_in_names(path, file.names);
+  }
+  throw_together(comm, fault);
+  broadcast(comm, file);
+  return file;
+}
+
+}  // namespace
+
+Schema mesh_schema() {
+  return {
+      {"mesh_file", Kind::text, "", required, range::any,
+       "gmsh mesh (MSH 4.1, in metres) with named physical surfaces and curves"},
+      {"mesh_partitioner", Kind::text, "", "metis", range::one_of({"metis", "simple", "ptscotch"}),
+       "how the mesh is cut: METIS with a fixed seed, equal runs of the node order, or PT-Scotch"},
+      {"mesh_refine", Kind::integer, "1", "0", range::non_negative,
+       "uniform refinements before partitioning; new nodes are not moved onto curved boundaries"},
+  };
+}
+
+MeshSource mesh_source(const Options& options) {
+  MeshSource source;
+  source.file = options.text("mesh_file");
+  const std::string name = options.text("mesh_partitioner");
+  source.partitioner = name == "simple"     ? Partitioner::simple
+                       : name == "ptscotch" ? Partitioner::ptscotch
+                                            : Partitioner::metis;
+  source.refine = static_cast<int>(options.integer("mesh_refine"));
+  return source;
+}
+
+Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
+  Mesh mesh;
+  mesh.file = source.file;
+  const GmshFile file = head_of(comm, source.file);
+  mesh.checksum = file.checksum;
+  mesh_stages::distribute(comm, mesh_stages::load_whole(comm, source, file), source.partitioner, mesh);
+  return mesh;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gmsh_file.hpp"
+#include "slipscale/mesh/mesh.hpp"
+#include "slipscale/mesh/read.hpp"
+
+/// The stages between a gmsh file and a `Mesh`. "Serial" means: all of it on rank 0, nothing elsewhere.
+namespace slipscale::mesh_stages {
+
+/// Corner vertices and their unwrapped coordinates of one cell of a DMPlex.
+struct CellGeometry {
+  std::vector<PetscInt> vertices;  ///< plex points, in the order of the closure
+  std::vector<Vector2> corners;    ///< m
+  double area() const;             ///< m², negative when the corners run clockwise
+  double smallest_corner() const;  ///< least cross product of two edges that meet at a corner, m²
+};
+CellGeometry cell_geometry(DM dm, PetscInt cell);
+
+/// Position of a vertex of the DMPlex, m.
+Vector2 vertex_position(DM dm, PetscInt vertex);
+
+/// The whole mesh on rank 0: what must be known before it is cut.
+struct Whole {
+  OwnedDM dm;
+  std::vector<Region> regions;        ///< complete on every rank
+  std::vector<Boundary> boundaries;   ///< likewise, without edges and nodes
+  std::array<bool, 2> periodic{};
+  Vector2 lower{}, upper{};
+  double shortest_edge = 0;
+  std::vector<PetscInt> number;       ///< rank 0: whole-mesh number of each vertex and cell, by plex point
+  PetscInt node_count = 0, cell_count = 0;
+};
+
+/// Reads, refines, checks and measures the mesh. Collective; throws UserError.
+Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file);
+
+/// The numbers of nodes (reverse Cuthill-McKee) and of cells (by their lowest nodes), by plex point. Rank 0.
+std::vector<PetscInt> whole_mesh_order(DM dm);
+
+/// Gives the DMPlex its partitioner, with the partition already in it for `metis` and `simple`. Collective.
+void set_partition(DM dm, Partitioner partitioner, const std::vector<PetscInt>& number);
+
+/// Cuts the mesh with one layer of overlap and fills the plain arrays of `mesh`. Collective.
+void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mesh);
+
+}  // namespace slipscale::mesh_stages

@@ -1,0 +1,54 @@
+#include "slipscale/solid/mass.hpp"
+
+#include <algorithm>
+
+#include "slipscale/solid/element.hpp"
+
+namespace slipscale {
+namespace {
+
+std::span<const Vector2> corners_of(const Cells& cells, int cell) {
+  return {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))};
+}
+
+}  // namespace
+
+std::vector<double> lumped_mass(const Mesh& mesh, const std::vector<Material>& materials) {
+  std::vector<double> mass(static_cast<std::size_t>(mesh.nodes.owned), 0);
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto areas = corner_areas(corners_of(mesh.cells, cell));
+    const double density = materials[mesh.cells.region[cell]].density;
+    for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
+      const int node = mesh.cells.corner_nodes[mesh.cells.first[cell] + k];
+      if (node < mesh.nodes.owned) mass[node] += density * areas[k];
+    }
+  }
+  return mass;
+}
+
+void cell_stress(const Mesh& mesh, const std::vector<Material>& materials, const Vector2* displacement,
+                 std::vector<std::array<double, 3>>& stress) {
+  stress.resize(static_cast<std::size_t>(mesh.cells.size()));
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto b = centre_strain_displacement(corners_of(mesh.cells, cell));
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+    for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
+      const Vector2& u = displacement[mesh.cells.corner_nodes[mesh.cells.first[cell] + k]];
+      strain += b.col(2 * k) * u[0] + b.col(2 * k + 1) * u[1];
+    }
+    Eigen::Map<Eigen::Vector3d>(stress[cell].data()) = materials[mesh.cells.region[cell]].stiffness * strain;
+  }
+}
+
+double element_eigenvalue_bound(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials) {
+  double largest = 0;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const Material& material = materials[mesh.cells.region[cell]];
+    largest = std::max(largest, largest_element_eigenvalue(corners_of(mesh.cells, cell), material.stiffness,
+                                                           material.density));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return largest;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,125 @@
+#include "slipscale/solid/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "effective_file.hpp"
+
+namespace slipscale {
+namespace {
+
+const char* const keys[] = {"young", "poisson", "stiffness", "density", "file"};
+
+Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
+  if (c.size() != 6)
+    throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " + std::to_string(c.size()) +
+                    " are given");
+  Eigen::Matrix3d stiffness;
+  stiffness << c[0], c[2], c[4], c[2], c[1], c[5], c[4], c[5], c[3];
+  if (Eigen::LLT<Eigen::Matrix3d>(stiffness).info() != Eigen::Success)
+    throw UserError(where + " is not positive definite; check the order c11,c22,c12,c66,c16,c26 and the signs");
+  return stiffness;
+}
+
+std::string six_numbers(const Eigen::Matrix3d& c) {
+  return format("C11 %.4g, C22 %.4g, C12 %.4g, C66 %.4g, C16 %.3g, C26 %.3g GPa", c(0, 0) * 1e-9, c(1, 1) * 1e-9,
+                c(0, 1) * 1e-9, c(2, 2) * 1e-9, c(0, 2) * 1e-9, c(1, 2) * 1e-9);
+}
+
+Material from_file(const std::string& option, const std::string& path) {
+  const EffectiveFile file = read_effective_file(path, option);
+  Material material;
+  material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
+  material.density = file.density;
+  material.description = six_numbers(material.stiffness) + format(", %.4g kg/m3 (%s)", file.density, path.c_str());
+  return material;
+}
+
+/// The material written under `prefix` = "material_<region>_".
+Material read_one(const Options& options, const std::string& prefix) {
+  if (const auto path = options.find_text(prefix + "file")) {
+    for (const char* key : {"young", "poisson", "stiffness", "density"})
+      if (options.given(prefix + key))
+        throw UserError("-" + prefix + key + " contradicts -" + prefix + "file, which already sets it; give one of them");
+    return from_file(prefix + "file", *path);
+  }
+  Material material;
+  if (options.given(prefix + "stiffness")) {
+    for (const char* key : {"young", "poisson"})
+      if (options.given(prefix + key))
+        throw UserError("-" + prefix + key + " contradicts -" + prefix + "stiffness; give one of them");
+    material.stiffness = voigt("-" + prefix + "stiffness", options.reals(prefix + "stiffness"));
+    material.description = six_numbers(material.stiffness);
+  } else {
+    const double young = options.real(prefix + "young"), poisson = options.real(prefix + "poisson");
+    material.stiffness = isotropic_stiffness(young, poisson);
+    material.description = format("E %.4g GPa, nu %.4g", young * 1e-9, poisson);
+  }
+  material.density = options.real(prefix + "density");
+  material.description += format(", %.4g kg/m3", material.density);
+  return material;
+}
+
+bool mentioned(const Options& options, const std::string& prefix) {
+  return std::any_of(std::begin(keys), std::end(keys),
+                     [&](const char* key) { return options.given(prefix + key); });
+}
+
+}  // namespace
+
+Eigen::Matrix3d isotropic_stiffness(double young, double poisson) {
+  const double shear = young / (2 * (1 + poisson));
+  const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  Eigen::Matrix3d c = Eigen::Matrix3d::Zero();
+  c(0, 0) = c(1, 1) = lame + 2 * shear;
+  c(0, 1) = c(1, 0) = lame;
+  c(2, 2) = shear;
+  return c;
+}
+
+WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
+  Eigen::Matrix<double, 3, 2> direction;
+  direction << nx, 0, 0, ny, ny, nx;
+  const Eigen::Matrix2d acoustic = direction.transpose() * material.stiffness * direction;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(acoustic, Eigen::EigenvaluesOnly);
+  return {std::sqrt(solver.eigenvalues()[1] / material.density), std::sqrt(solver.eigenvalues()[0] / material.density)};
+}
+
+Schema material_schema() {
+  return {
+      {"material_<region>_young", Kind::real, "Pa", required, range::positive, "Young's modulus"},
+      {"material_<region>_poisson", Kind::real, "1", required, range::poisson, "Poisson's ratio"},
+      {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::any,
+       "c11,c22,c12,c66,c16,c26 in plane strain, in place of young and poisson"},
+      {"material_<region>_density", Kind::real, "kg/m3", required, range::positive, "mass density"},
+      {"material_<region>_file", Kind::text, "", absent, range::any,
+       "effective.yaml of a homogenised material: stiffness and density"},
+      {"material_file", Kind::text, "", absent, range::any,
+       "the same for every region that is not named (short for material_all_file)"},
+  };
+}
+
+std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions) {
+  std::vector<Material> materials;
+  const auto shared_file = options.find_text("material_file");
+  const bool shared = mentioned(options, "material_all_");
+  if (shared_file && shared)
+    throw UserError("-material_file contradicts the material of 'all'; give one of them");
+  for (const std::string& region : regions) {
+    const std::string own = "material_" + region + "_";
+    if (mentioned(options, own))
+      materials.push_back(read_one(options, own));
+    else if (shared_file)
+      materials.push_back(from_file("material_file", *shared_file));
+    else if (shared)
+      materials.push_back(read_one(options, "material_all_"));
+    else
+      throw UserError("region '" + region + "' has no material; give -" + own + "young, -" + own + "poisson and -" +
+                      own + "density, or one for every region under material_all_");
+  }
+  return materials;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,73 @@
+#include "slipscale/solid/pair_stiffness.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "slipscale/solid/element.hpp"
+
+namespace slipscale {
+namespace {
+
+/// Neighbours of higher number of every local node, ascending by number; pairs of two ghosts are left out.
+std::vector<std::vector<int>> higher_neighbours(const Mesh& mesh) {
+  const auto& number = mesh.nodes.number;
+  std::vector<std::vector<int>> higher(static_cast<std::size_t>(mesh.nodes.size()));
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const int* nodes = mesh.cells.corner_nodes.data() + mesh.cells.first[cell];
+    const int count = mesh.cells.corner_count(cell);
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b)
+        if (number[nodes[a]] < number[nodes[b]] && std::min(nodes[a], nodes[b]) < mesh.nodes.owned)
+          higher[nodes[a]].push_back(nodes[b]);
+  }
+  for (auto& list : higher) {
+    std::sort(list.begin(), list.end(), [&](int a, int b) { return number[a] < number[b]; });
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return higher;
+}
+
+}  // namespace
+
+template <class Scalar>
+PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Material>& materials)
+    : owned_(mesh.nodes.owned), count_(mesh.nodes.size()) {
+  const auto& number = mesh.nodes.number;
+  const auto higher = higher_neighbours(mesh);
+  std::vector<int> order(higher.size()), row_of(higher.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return number[a] < number[b]; });
+  for (int node : order) {
+    row_of[node] = static_cast<int>(rows_.size());
+    rows_.push_back({node, static_cast<int>(high_.size())});
+    high_.insert(high_.end(), higher[node].begin(), higher[node].end());
+  }
+  rows_.push_back({-1, static_cast<int>(high_.size())});
+
+  // Sums are taken in double precision whatever the storage.
+  std::vector<std::array<double, 4>> sums(high_.size(), {0, 0, 0, 0});
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
+    const int* nodes = mesh.cells.corner_nodes.data() + first;
+    const auto k = element_stiffness({mesh.cells.corners.data() + first, static_cast<std::size_t>(count)},
+                                     materials[mesh.cells.region[cell]].stiffness);
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b) {
+        const int low = nodes[a], high = nodes[b];
+        if (number[low] >= number[high] || std::min(low, high) >= owned_) continue;
+        const auto begin = high_.begin() + rows_[row_of[low]].first, end = high_.begin() + rows_[row_of[low] + 1].first;
+        auto& sum = sums[std::find(begin, end, high) - high_.begin()];
+        for (int row = 0; row < 2; ++row)
+          for (int column = 0; column < 2; ++column) sum[2 * row + column] += k(2 * a + row, 2 * b + column);
+      }
+  }
+  blocks_.reserve(sums.size());
+  for (const auto& s : sums)
+    blocks_.push_back({static_cast<Scalar>(s[0]), static_cast<Scalar>(s[1]), static_cast<Scalar>(s[2]),
+                       static_cast<Scalar>(s[3])});
+}
+
+template class PairStiffness<double>;
+template class PairStiffness<float>;
+
+}  // namespace slipscale

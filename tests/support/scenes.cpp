@@ -1,0 +1,62 @@
+#include "scenes.hpp"
+
+#include <cmath>
+
+namespace slipscale::testing_support {
+
+Mesh block_mesh(const Block& block, Partitioner partitioner, int refine) {
+  const std::string path = scratch("block.msh");
+  write_block(block, path);
+  return read_mesh(PETSC_COMM_WORLD, {path, partitioner, refine});
+}
+
+Material isotropic(double young, double poisson, double density) {
+  return {isotropic_stiffness(young, poisson), density, "isotropic"};
+}
+
+double value_near(const Mesh& mesh, const Vector2* field, const Vector2& x, int axis) {
+  struct {
+    double distance;
+    int rank;
+  } best{1e300, 0};
+  MPI_Comm_rank(PETSC_COMM_WORLD, &best.rank);
+  const int own_rank = best.rank;
+  int nearest = -1;
+  for (int i = 0; i < mesh.nodes.owned; ++i) {
+    const double d = std::hypot(mesh.nodes.position[i][0] - x[0], mesh.nodes.position[i][1] - x[1]);
+    if (d < best.distance) {
+      best.distance = d;
+      nearest = i;
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, PETSC_COMM_WORLD);
+  double value = own_rank == best.rank ? field[nearest][axis] : 0;
+  MPI_Bcast(&value, 1, MPI_DOUBLE, best.rank, PETSC_COMM_WORLD);
+  return value;
+}
+
+Vector2 support_force(const SlidingBody& body, const std::string& boundary) {
+  Vector2 sum{};
+  for (int i : body.model().mesh.find_boundary(boundary)->nodes) {
+    const Vector2 force = body.force_on_support(body.boundary_nodes().slot_of(i));
+    sum = {sum[0] + force[0], sum[1] + force[1]};
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return sum;
+}
+
+Scene scene_r() {
+  Scene scene;
+  scene.conditions = {{"top", {0.0, -1.3888888888888889e-6}, 0, 0, 40e-6}};
+  scene.damping.stiffness = 2e-9;
+  scene.surface = Surface{"bottom", 0, 2, 0};
+  scene.friction.law = FrictionChoice::Law::regularized;
+  scene.friction.coefficient = 0.5;
+  scene.friction.time = 0.6e-6;
+  scene.friction.stored_strength = true;
+  return scene;
+}
+
+Material scene_r_material() { return isotropic(45e9, 0.25, 1800); }
+
+}  // namespace slipscale::testing_support

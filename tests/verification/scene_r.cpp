@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+using namespace slipscale;
+using namespace slipscale::testing_support;
+
+namespace {
+
+/// u of the central contact node M, its velocity (u_{n+1} − u_n)/Δt and the top's load at one time.
+struct Reading {
+  double u, v, tangential, normal;
+};
+
+Reading scene_r_at(double spacing, double step, double time, Partitioner partitioner = Partitioner::metis) {
+  Block block;
+  block.width = block.height = 5e-3;
+  block.nx = block.ny = static_cast<int>(std::lround(5e-3 / spacing));
+  block.shape = Shape::quadrilaterals;
+  const Mesh mesh = block_mesh(block, partitioner);
+  const Model model(mesh, {scene_r_material()}, Model::Storage::full);
+  SlidingBody body(PETSC_COMM_WORLD, model, scene_r(), step);
+  const long last = std::lround(time / step);
+  for (long n = 0; n <= last; ++n) body.advance(n == last);
+  const Vector2 m{2.5e-3, 0};
+  const double now = value_near(mesh, body.displacement_n(), m, 0), next = value_near(mesh, body.displacement(), m, 0);
+  const Vector2 top = support_force(body, "top");
+  return {now, (next - now) / step, top[0], top[1]};
+}
+
+}  // namespace
+
+/// Science, section 8, before saturation; figures of a separate serial prototype, printed there with 10 digits.
+TEST(SceneR, AgreesWithTheReferenceAtTenMicroseconds) {
+  const Reading r = scene_r_at(0.25e-3, 5e-9, 10e-6);
+  EXPECT_NEAR(r.u / 3.716186611e-7, 1, 1e-6);
+  EXPECT_NEAR(r.v / 0.06998790, 1, 1e-6);
+  EXPECT_NEAR(r.tangential / 4476.373, 1, 1e-6);
+  EXPECT_NEAR(r.normal / 10365.766, 1, 1e-6);
+}
+
+TEST(SceneR, AgreesWithTheReferenceAtThirtyMicroseconds) {
+  const Reading r = scene_r_at(0.25e-3, 5e-9, 30e-6);
+  EXPECT_NEAR(r.u / 2.461864355e-6, 1, 1e-6);
+  EXPECT_NEAR(r.v / 0.09284393, 1, 1e-6);
+  EXPECT_NEAR(r.tangential / 29911.024, 1, 1e-6);
+  EXPECT_NEAR(r.normal / 60767.820, 1, 1e-6);
+}
+
+TEST(SceneR, AgreesWithTheReferenceOnTheFinerMesh) {
+  EXPECT_NEAR(scene_r_at(0.125e-3, 2.5e-9, 30e-6).u / 2.467210660e-6, 1, 1e-6);
+}
