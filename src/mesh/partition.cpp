@@ -9,13 +9,14 @@ namespace slipscale::mesh_stages {
 namespace {
 
 /// The rank of each cell, by METIS on the graph of cells that share an edge; the seed is fixed, so the same
-/// mesh is cut the same way every time.
+/// mesh is cut the same way every time. Collective, for PETSc makes the graph together.
 std::vector<PetscInt> metis_parts(DM dm, int ranks) {
   PetscInt cells = 0, *start = nullptr, *neighbours = nullptr;
   petsc(DMPlexCreatePartitionerGraph(dm, 0, &cells, &start, &neighbours, nullptr));
   std::vector<idx_t> xadj(start, start + cells + 1), adjncy(neighbours, neighbours + start[cells]);
   petsc(PetscFree(start));
   petsc(PetscFree(neighbours));
+  if (cells == 0) return {};
   idx_t count = cells, constraints = 1, parts = ranks, cut = 0, options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
@@ -48,10 +49,9 @@ void set_partition(DM dm, Partitioner partitioner, const std::vector<PetscInt>& 
   MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(dm)), &ranks);
   PetscInt begin = 0, end = 0;
   petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
-  std::vector<PetscInt> part;
-  if (end > begin)
-    part = partitioner == Partitioner::metis ? metis_parts(dm, ranks)
-                                             : runs_of_the_order(end - begin, ranks, number.data() + begin);
+  const std::vector<PetscInt> part = partitioner == Partitioner::metis
+                                         ? metis_parts(dm, ranks)
+                                         : runs_of_the_order(end - begin, ranks, number.data() + begin);
   std::vector<PetscInt> sizes(static_cast<std::size_t>(ranks), 0), points(part.size());
   for (PetscInt rank : part) ++sizes[rank];
   std::iota(points.begin(), points.end(), 0);
