@@ -35,7 +35,7 @@ void complain(const std::string& program, std::string sentence) {
   std::abort();
 }
 
-/// 0 when `work` returns, 2 when all ranks threw the same `UserError`.
+/// 0 when `work` returns, 2 when all ranks threw the same `UserError`, 1 for a `RunError`.
 int guarded(const std::string& program, const std::function<void()>& work) {
   try {
     work();
@@ -43,6 +43,9 @@ int guarded(const std::string& program, const std::function<void()>& work) {
   } catch (const UserError& error) {
     if (rank_of_world() == 0) complain(program, error.what());
     return 2;
+  } catch (const RunError& error) {
+    if (rank_of_world() == 0) complain(program, error.what());
+    return 1;
   } catch (const std::bad_alloc&) {
     abort_all(program, "out of memory; use more ranks or a coarser mesh");
   } catch (const std::exception& error) {

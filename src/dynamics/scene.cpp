@@ -39,6 +39,8 @@ Schema scene_schema() {
       {"time_end", Kind::real, "s", required, range::positive, "simulated time at the end of the run"},
       {"time_beta2", Kind::real, "1", "0.5", {"in [0.5, 1]", [](double x) { return x >= 0.5 && x <= 1; }},
        "beta2 of the scheme: 0.5 is central difference, more dissipates at high frequency"},
+      {"history_boundary", Kind::text, "", absent, range::any,
+       "boundary where the load and the global friction are measured; `top` when the mesh has one"},
       {"stiffness_storage", Kind::text, "", "double", range::one_of({"double", "single"}),
        "precision in which the stiffness is stored; arithmetic is always double"},
   };
@@ -66,7 +68,9 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
                         " has no effect without -surface_boundary; name the boundary that meets the surface");
   }
   if (const auto measured = options.find_text("history_boundary"))
-    scene.measured.push_back(known_boundary(mesh, *measured, "history_boundary").name);
+    scene.measured = known_boundary(mesh, *measured, "history_boundary").name;
+  else if (const Boundary* top = mesh.find_boundary("top"); top && !top->interior)
+    scene.measured = "top";
   return scene;
 }
 

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
 namespace {
 
 std::vector<std::string> boundaries_in_use(const Scene& scene) {
-  std::vector<std::string> names = scene.measured;
+  std::vector<std::string> names;
+  if (!scene.measured.empty()) names.push_back(scene.measured);
   for (const auto& condition : scene.conditions) names.push_back(condition.boundary);
   if (scene.surface) names.push_back(scene.surface->boundary);
   std::sort(names.begin(), names.end());
@@ -41,7 +43,8 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       a_(comm, model.mesh.nodes, false),
       force_(model.mesh.nodes.number.size(), {0, 0}),
       kept_(model.mesh.nodes.number.size(), {0, 0}),
-      boundary_(model, boundaries_in_use(scene)),
+      boundary_names_(boundaries_in_use(scene)),
+      boundary_(model, boundary_names_),
       loads_(model.mesh, scene.conditions, boundary_),
       law_(friction_law(scene.friction, time_step)),
       physics_(bulk_physics(scene)),
@@ -113,7 +116,11 @@ void SlidingBody::advance(bool observed) {
   boundary_.remember(state(), force_.data());
   if (physics_.keeps_force()) std::swap(force_, previous_force_);
 
-  (this->*free_motion_)(step);
+  {
+    static const LogEvent event("FreeMotion");
+    const LogEvent::Scope scope(event);
+    (this->*free_motion_)(step);
+  }
   if (!loads_.empty()) loads_.apply(now, step, boundary_, state());
   if (!supports_->empty()) supports_->apply(next, step, boundary_, state());
   if (scene_.surface) {

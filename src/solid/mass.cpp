@@ -26,18 +26,23 @@ std::vector<double> lumped_mass(const Mesh& mesh, const std::vector<Material>& m
   return mass;
 }
 
+std::array<double, 3> stress_of_cell(const Mesh& mesh, const std::vector<Material>& materials,
+                                     const Vector2* displacement, int cell) {
+  const auto b = centre_strain_displacement(corners_of(mesh.cells, cell));
+  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+  for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
+    const Vector2& u = displacement[mesh.cells.corner_nodes[mesh.cells.first[cell] + k]];
+    strain += b.col(2 * k) * u[0] + b.col(2 * k + 1) * u[1];
+  }
+  const Eigen::Vector3d stress = materials[mesh.cells.region[cell]].stiffness * strain;
+  return {stress[0], stress[1], stress[2]};
+}
+
 void cell_stress(const Mesh& mesh, const std::vector<Material>& materials, const Vector2* displacement,
                  std::vector<std::array<double, 3>>& stress) {
   stress.resize(static_cast<std::size_t>(mesh.cells.size()));
-  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const auto b = centre_strain_displacement(corners_of(mesh.cells, cell));
-    Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-    for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
-      const Vector2& u = displacement[mesh.cells.corner_nodes[mesh.cells.first[cell] + k]];
-      strain += b.col(2 * k) * u[0] + b.col(2 * k + 1) * u[1];
-    }
-    Eigen::Map<Eigen::Vector3d>(stress[cell].data()) = materials[mesh.cells.region[cell]].stiffness * strain;
-  }
+  for (int cell = 0; cell < mesh.cells.size(); ++cell)
+    stress[cell] = stress_of_cell(mesh, materials, displacement, cell);
 }
 
 double element_eigenvalue_bound(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials) {

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <cmath>
+#include <cstdlib>
 
 using namespace slipscale;
 

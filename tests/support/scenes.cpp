@@ -45,6 +45,25 @@ Vector2 support_force(const SlidingBody& body, const std::string& boundary) {
   return sum;
 }
 
+std::vector<Vector2> whole_field(MPI_Comm comm, const Mesh& mesh, const Vector2* owned) {
+  std::vector<Vector2> all(static_cast<std::size_t>(mesh.nodes.total), {0, 0});
+  for (int i = 0; i < mesh.nodes.owned; ++i) all[mesh.nodes.number[i]] = owned[i];
+  // One rank adds to zeros, so the sum changes no bit.
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), 2 * static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm);
+  return all;
+}
+
+void StatusCount::add(const ContactNodes& contact) {
+  for (const ContactStatus status : contact.status)
+    ++(status == ContactStatus::open ? open : status == ContactStatus::stick ? stick : slip);
+}
+
+StatusCount StatusCount::over_ranks(MPI_Comm comm) const {
+  StatusCount sum = *this;
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 3, MPI_LONG, MPI_SUM, comm);
+  return sum;
+}
+
 Scene scene_r() {
   Scene scene;
   scene.conditions = {{"top", {0.0, -1.3888888888888889e-6}, 0, 0, 40e-6}};

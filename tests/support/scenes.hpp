@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "block_mesh.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
@@ -18,6 +19,30 @@ double value_near(const Mesh& mesh, const Vector2* field, const Vector2& x, int 
 
 /// Sum over the boundary's nodes of the force of the body on its support, x and y, N/m. Collective.
 Vector2 support_force(const SlidingBody& body, const std::string& boundary);
+
+/// Values of all nodes of the whole mesh by their number, the same on every rank. Collective.
+std::vector<Vector2> whole_field(MPI_Comm comm, const Mesh& mesh, const Vector2* owned);
+
+/// A body with the mesh and the model it lives on.
+struct Simulation {
+  Simulation(MPI_Comm comm, const MeshSource& source, const std::vector<Material>& materials,
+             const Scene& scene, double time_step)
+      : mesh(read_mesh(comm, source)),
+        model(mesh, materials, Model::Storage::full),
+        body(comm, model, scene, time_step) {}
+
+  const Mesh mesh;
+  const Model model;
+  SlidingBody body;
+};
+
+/// How often a contact node was seen open, sticking and slipping.
+struct StatusCount {
+  long open = 0, stick = 0, slip = 0;
+  void add(const ContactNodes& contact);
+  StatusCount over_ranks(MPI_Comm comm) const;
+  bool all_seen() const { return open > 0 && stick > 0 && slip > 0; }
+};
 
 /// Scene R (science, section 8): a homogeneous block pressed at its top on a fast surface. Units SI.
 Scene scene_r();

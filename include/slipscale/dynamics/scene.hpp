@@ -21,7 +21,7 @@ struct Scene {
   double beta2 = 0.5;
   std::optional<Surface> surface;
   FrictionChoice friction;
-  std::vector<std::string> measured;  ///< boundaries whose load is recorded beyond those with a condition
+  std::string measured;  ///< boundary where the load is measured; empty: none
 };
 
 /// When the run ends and how it gets there.

@@ -39,6 +39,8 @@ class SlidingBody {
   const Vector2* internal_force() const { return force_.data(); }     ///< K u_n, owned nodes, N/m
   const ContactNodes& contact() const { return contact_; }            ///< at t_n
   const BoundaryNodes& boundary_nodes() const { return boundary_; }   ///< at t_n
+  /// The boundaries whose nodes are the boundary nodes: with a condition, at the surface, measured; sorted.
+  const std::vector<std::string>& boundary_names() const { return boundary_names_; }
   double surface_velocity() const;                                    ///< V at t_n, m/s
   double surface_travel() const { return surface_travel_; }           ///< over the step just made, m
 
@@ -65,6 +67,7 @@ class SlidingBody {
   NodalVector u_, v_, a_;
   std::vector<Vector2> force_, previous_force_, kept_;
   std::vector<double> inverse_mass_;
+  const std::vector<std::string> boundary_names_;
   BoundaryNodes boundary_;
   Loads loads_;
   std::unique_ptr<Supports> supports_;  ///< made once the initial displacement is known

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipscale/dynamics/sliding_body.hpp"
+#include "slipscale/mesh/ordered_gather.hpp"
+
+namespace slipscale {
+
+/// Load that a boundary carries, N per metre of depth.
+struct BoundaryLoad {
+  double normal = 0;      ///< > 0 in compression
+  double tangential = 0;  ///< of the body on its support, > 0 along +x (along +y where the boundary is vertical)
+};
+
+/// One contact node at t_n.
+struct ContactReading {
+  Vector2 u{};         ///< m
+  double velocity = 0;  ///< v_x, m/s
+  double traction = 0;  ///< tangential, on the body along +x, Pa
+  double normal_force = 0;  ///< λ, N/m
+  ContactStatus status = ContactStatus::open;
+};
+
+/// What is measured at t_n; on rank 0, the same bits on any number of ranks but for the energies, which are sums over
+/// the bulk and are known on every rank.
+struct Observation {
+  double time = 0;  ///< s
+  long step = 0;
+  std::vector<BoundaryLoad> boundaries;  ///< in the order of SlidingBody::boundary_names
+  std::vector<ContactReading> contact;   ///< along x
+  BoundaryLoad surface;                  ///< force of the surface on the body: λ and τA summed
+  double drive_power = 0;                ///< Σ τA V, W/m
+  double power_into_body = 0;            ///< Σ τA v_x, W/m
+  double friction_heat = 0;              ///< Σ τA (V − v_x), W/m
+  double stick = 0, slip = 0, open = 0;  ///< fractions of the contact boundary's length
+  double friction = 0;                   ///< tangential over normal load at the measured boundary; NaN without load
+  Energy energy;
+};
+
+/// Gathers what an observation needs. Collective.
+class Observer {
+ public:
+  explicit Observer(const SlidingBody& body);
+
+  /// State at t_n of an observed step. Collective.
+  Observation observe() const;
+
+  const std::vector<double>& contact_x() const { return contact_x_; }            ///< rank 0, ascending, m
+  const std::vector<double>& tributary_length() const { return contact_length_; }  ///< rank 0, m
+  int measured() const { return measured_; }  ///< index of the measured boundary; −1 without one
+
+ private:
+  void observe_boundaries(Observation& seen) const;
+  void observe_contact(Observation& seen) const;
+
+  const SlidingBody& body_;
+  OrderedGather boundary_gather_, contact_gather_;
+  std::vector<std::vector<int>> members_;  ///< rank 0, by boundary: rows of the gathered boundary nodes
+  std::vector<int> along_x_;               ///< rank 0: gathered contact rows in the order of x
+  std::vector<double> contact_x_, contact_length_;
+  int measured_ = -1;
+};
+
+}  // namespace slipscale

@@ -1,0 +1,108 @@
+#include "slipscale/record/observation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace slipscale {
+namespace {
+
+std::vector<PetscInt> numbers_of(const Mesh& mesh, const std::vector<int>& nodes) {
+  std::vector<PetscInt> numbers;
+  for (int i : nodes) numbers.push_back(mesh.nodes.number[i]);
+  return numbers;
+}
+
+}  // namespace
+
+Observer::Observer(const SlidingBody& body) : body_(body) {
+  const Mesh& mesh = body.model().mesh;
+  const auto& nodes = body.boundary_nodes();
+  boundary_gather_ = OrderedGather(body.comm(), numbers_of(mesh, nodes.node));
+  for (const std::string& name : body.boundary_names()) {
+    if (name == body.scene().measured) measured_ = static_cast<int>(members_.size());
+    std::vector<double> belongs(static_cast<std::size_t>(nodes.size()), 0);
+    for (int i : mesh.find_boundary(name)->nodes) belongs[nodes.slot_of(i)] = 1;
+    const auto all = boundary_gather_(belongs, 1);
+    members_.emplace_back();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k] != 0) members_.back().push_back(static_cast<int>(k));
+  }
+
+  const ContactNodes& contact = body.contact();
+  contact_gather_ = OrderedGather(body.comm(), numbers_of(mesh, contact.node));
+  std::vector<double> place;
+  for (int k = 0; k < contact.size(); ++k)
+    place.insert(place.end(), {mesh.nodes.position[contact.node[k]][0], contact.tributary_length[k]});
+  const auto all = contact_gather_(place, 2);
+  along_x_.resize(all.size() / 2);
+  std::iota(along_x_.begin(), along_x_.end(), 0);
+  std::stable_sort(along_x_.begin(), along_x_.end(), [&](int a, int b) { return all[2 * a] < all[2 * b]; });
+  for (int row : along_x_) {
+    contact_x_.push_back(all[2 * row]);
+    contact_length_.push_back(all[2 * row + 1]);
+  }
+}
+
+Observation Observer::observe() const {
+  Observation seen;
+  seen.time = body_.time();
+  seen.step = body_.steps_done() - 1;
+  seen.energy = body_.energy();
+  observe_boundaries(seen);
+  if (body_.scene().surface) observe_contact(seen);
+  seen.friction = std::numeric_limits<double>::quiet_NaN();
+  if (measured_ >= 0 && !seen.boundaries.empty() && seen.boundaries[measured_].normal != 0)
+    seen.friction = seen.boundaries[measured_].tangential / seen.boundaries[measured_].normal;
+  return seen;
+}
+
+void Observer::observe_boundaries(Observation& seen) const {
+  std::vector<Vector2> mine;
+  for (int k = 0; k < body_.boundary_nodes().size(); ++k) mine.push_back(body_.force_on_support(k));
+  const auto all = boundary_gather_({mine.empty() ? nullptr : mine[0].data(), 2 * mine.size()}, 2);
+  if (all.empty()) return;
+  for (std::size_t b = 0; b < members_.size(); ++b) {
+    Vector2 sum{};
+    for (int row : members_[b]) sum = {sum[0] + all[2 * row], sum[1] + all[2 * row + 1]};
+    Vector2 normal = body_.model().mesh.find_boundary(body_.boundary_names()[b])->normal;
+    if (normal[0] == 0 && normal[1] == 0) normal = {0, 1};
+    Vector2 tangent{normal[1], -normal[0]};
+    if (tangent[0] < -1e-12 || (std::abs(tangent[0]) <= 1e-12 && tangent[1] < 0)) tangent = {-tangent[0], -tangent[1]};
+    seen.boundaries.push_back({sum[0] * normal[0] + sum[1] * normal[1], sum[0] * tangent[0] + sum[1] * tangent[1]});
+  }
+}
+
+void Observer::observe_contact(Observation& seen) const {
+  const ContactNodes& contact = body_.contact();
+  constexpr int width = 6;
+  std::vector<double> mine;
+  for (int k = 0; k < contact.size(); ++k) {
+    const Vector2& u = body_.displacement_n()[contact.node[k]];
+    mine.insert(mine.end(), {u[0], u[1], body_.velocity()[contact.node[k]][0], contact.traction[k], contact.force[k][1],
+                             static_cast<double>(contact.status[k])});
+  }
+  const auto all = contact_gather_(mine, width);
+  const double surface = body_.surface_velocity();
+  double total = 0;
+  for (std::size_t k = 0; k < along_x_.size(); ++k) {
+    const double *row = &all[static_cast<std::size_t>(along_x_[k]) * width], length = contact_length_[k];
+    const ContactReading reading{{row[0], row[1]}, row[2], row[3], row[4], static_cast<ContactStatus>(row[5])};
+    const double force = reading.traction * length;
+    seen.surface.normal += reading.normal_force;
+    seen.surface.tangential += force;
+    seen.power_into_body += force * reading.velocity;
+    seen.friction_heat += force * (surface - reading.velocity);
+    (reading.status == ContactStatus::open    ? seen.open
+     : reading.status == ContactStatus::stick ? seen.stick
+                                              : seen.slip) += length;
+    total += length;
+    seen.contact.push_back(reading);
+  }
+  seen.drive_power = seen.surface.tangential * surface;
+  if (total > 0)
+    for (double* part : {&seen.stick, &seen.slip, &seen.open}) *part /= total;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,105 @@
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipscale/base/print.hpp"
+#include "slipscale/record/estimate.hpp"
+#include "slipscale/record/recorder.hpp"
+#include "slipscale/record/yaml.hpp"
+#include "slipscale/version.hpp"
+#include "summary.hpp"
+
+namespace slipscale {
+namespace {
+
+int rank_of(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+/// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness, which is
+/// timed here (bulk arrays, damping and boundary nodes make up the rest).
+double predicted_step_seconds(const SlidingBody& body) {
+  const Model& model = body.model();
+  NodalVector x(body.comm(), model.mesh.nodes, true);
+  std::vector<Vector2> force(model.mesh.nodes.number.size());
+  double best = 1e300;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    model.multiply(x.data(), force.data());
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE, MPI_MAX, body.comm());
+  return 1.7 * best;
+}
+
+double memory_of_all_ranks(MPI_Comm comm) {
+  PetscLogDouble memory = 0;
+  petsc(PetscMemoryGetCurrentUsage(&memory));
+  MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return memory;
+}
+
+std::string hexadecimal(std::uint64_t value) { return format("%016llx", static_cast<unsigned long long>(value)); }
+
+}  // namespace
+
+std::string Recorder::forecast() const {
+  const auto rows = [&](long every) { return static_cast<double>(last_ / every + 1); };
+  double frames = static_cast<double>(field_steps_.size());
+  if (choice_.fields_every) frames = rows(*choice_.fields_every);
+  double bytes = 0;
+  if (history_) bytes += rows(history_every_) * static_cast<double>(history_->series().row_bytes());
+  if (contact_) bytes += rows(contact_every_) * static_cast<double>(contact_->series().row_bytes());
+  const Mesh& mesh = body_.model().mesh;
+  if (fields_) bytes += fields_bytes(frames, mesh.nodes.total, mesh.cells.total, choice_.quantities);
+  const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
+  return format("%ld steps to %s, about %s, memory %s, output %s in '%s'\n", last_,
+                engineering(static_cast<double>(last_) * time_.step, "s").c_str(), readable_duration(seconds).c_str(),
+                readable_bytes(memory_of_all_ranks(body_.comm())).c_str(), readable_bytes(bytes).c_str(),
+                folder_.path().c_str());
+}
+
+void Recorder::write_run(const Options& options) const {
+  int ranks = 1;
+  MPI_Comm_size(body_.comm(), &ranks);
+  const Model& model = body_.model();
+  std::vector<RunFact> facts{
+      {"program", "slide", ""},
+      {"version", version, ""},
+      {"ranks", std::to_string(ranks), ""},
+      {"mesh_checksum", "'" + hexadecimal(model.mesh.checksum) + "'", "FNV-1a of the mesh file"},
+      {"nodes", std::to_string(model.mesh.nodes.total), ""},
+      {"cells", std::to_string(model.mesh.cells.total), ""},
+      {"block", format("[%g, %g]", model.mesh.upper[0] - model.mesh.lower[0], model.mesh.upper[1] - model.mesh.lower[1]),
+       "m, width and height"},
+      {"largest_frequency", format("%.6g", time_.frequency.sharp), "1/s, Lanczos"},
+      {"largest_frequency_bound", format("%.6g", time_.frequency.safe), "1/s, largest element"},
+      {"stable_step", format("%.17g", time_.limit), "s"},
+      {"step", format("%.17g", time_.step), "s"},
+      {"steps", std::to_string(time_.count), ""}};
+  for (std::size_t r = 0; r < model.materials.size(); ++r) {
+    const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
+    facts.push_back({"wave_speeds_" + model.mesh.regions[r].name, format("[%.6g, %.6g]", speeds.fast, speeds.slow),
+                     "m/s along y"});
+  }
+  folder_.write_text("run.yaml", run_yaml(options.effective(), facts));
+}
+
+std::string Recorder::finish() {
+  progress_.finish();
+  if (fields_) fields_->close();
+  if (history_) history_->series().close();
+  if (contact_) contact_->series().close();
+  share_faults();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  std::string text;
+  if (rank_of(body_.comm()) == 0)
+    text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_, seconds});
+  folder_.write_text("summary.yaml", text);
+  return text;
+}
+
+}  // namespace slipscale

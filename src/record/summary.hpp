@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipscale/record/observation.hpp"
+
+namespace slipscale {
+
+/// What the headline numbers of a run are made of.
+struct SummaryInput {
+  const SlidingBody& body;
+  const TimeStep& time;
+  const std::vector<Observation>& rows;  ///< rank 0: the rows of history.h5
+  int measured;                          ///< index of the measured boundary; −1 without one
+  long history_every;                    ///< steps
+  double largest_residual;               ///< relative to what flowed
+  double seconds;                        ///< wall time of the steps
+};
+
+/// summary.yaml: the headline numbers, averages over the second half of the run. Rank 0.
+std::string summary_text(const SummaryInput& input);
+
+}  // namespace slipscale

@@ -1,0 +1,122 @@
+// What a time step costs on one core, against PETSc's matrix products with the same stiffness and node order:
+//   tests/bench/bench_step -nodes 4000,24000,145000 -repetitions 31
+//   tests/bench/bench_step -mesh block.msh              (any mesh with curves `bottom` and `top`)
+// The variants take turns within one run, and every figure is a median, so that a busy machine disturbs all alike.
+#include <petsctime.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "../solid/assembled.hpp"
+#include "scenes.hpp"
+
+using namespace slipscale;
+using namespace slipscale::testing_support;
+
+namespace {
+
+struct Variant {
+  std::string name;
+  std::function<void()> run;
+  std::vector<double> seconds = {};  ///< of one call, by repetition
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double time_of(const std::function<void()>& action, int calls) {
+  PetscLogDouble begin = 0, end = 0;
+  petsc(PetscTime(&begin));
+  for (int k = 0; k < calls; ++k) action();
+  petsc(PetscTime(&end));
+  return (end - begin) / calls;
+}
+
+/// A block under pressure that slides; everything moves, so no arithmetic meets zeros or denormal numbers.
+Scene sliding_block(double stiffness_damping) {
+  Scene scene = scene_r();
+  scene.damping.stiffness = stiffness_damping;
+  scene.initial.pressure = 15e6;
+  scene.initial.shear = 7.5e6;
+  scene.initial.amplitude = 0.01;
+  scene.initial.wavelength = 5e-3;
+  return scene;
+}
+
+OwnedMat product(const Mesh& mesh, const std::vector<Material>& materials, MatType type) {
+  if (std::string(type) != MATSEQSELL) return assembled_stiffness(PETSC_COMM_SELF, mesh, materials, type);
+  OwnedMat matrix, from = assembled_stiffness(PETSC_COMM_SELF, mesh, materials, MATSEQAIJ);
+  petsc(MatConvert(from, MATSEQSELL, MAT_INITIAL_MATRIX, matrix.put()));
+  return matrix;
+}
+
+void measure(const Mesh& mesh, int repetitions) {
+  const std::vector<Material> materials(mesh.regions.size(), scene_r_material());
+  const Model model(mesh, materials, Model::Storage::full), single(mesh, materials, Model::Storage::single);
+  const double limit = choose_step(PETSC_COMM_SELF, model, sliding_block(2e-9), {{}, 0.9, 1e-3}).step;
+  SlidingBody undamped(PETSC_COMM_SELF, model, sliding_block(0), limit);
+  SlidingBody damped(PETSC_COMM_SELF, model, sliding_block(2e-9), limit);
+  SlidingBody damped_single(PETSC_COMM_SELF, single, sliding_block(2e-9), limit);
+  NodalVector u(PETSC_COMM_SELF, mesh.nodes, true), f(PETSC_COMM_SELF, mesh.nodes, true);
+  for (int i = 0; i < mesh.nodes.owned; ++i) u.data()[i] = {std::sin(0.1 * i), std::cos(0.1 * i)};
+  const OwnedMat baij = product(mesh, materials, MATSEQBAIJ), aij = product(mesh, materials, MATSEQAIJ),
+                 sell = product(mesh, materials, MATSEQSELL);
+
+  const auto multiply = [&](Mat matrix) { petsc(MatMult(matrix, u.vec(), f.vec())); };
+  std::vector<Variant> variants{
+      {"MATBAIJ product", [&] { multiply(baij); }},
+      {"MATAIJ product", [&] { multiply(aij); }},
+      {"MATSELL product", [&] { multiply(sell); }},
+      {"pair product", [&] { model.multiply(u.data(), f.data()); }},
+      {"pair product, single", [&] { single.multiply(u.data(), f.data()); }},
+      {"step", [&] { undamped.advance(false); }},
+      {"step, stiffness damping", [&] { damped.advance(false); }},
+      {"the same, single", [&] { damped_single.advance(false); }},
+  };
+  const int calls = std::max(2, static_cast<int>(1e6 / mesh.nodes.owned));
+  for (int k = -1; k < repetitions; ++k)  // the first round warms up
+    for (Variant& variant : variants) {
+      const double seconds = time_of(variant.run, calls);
+      if (k >= 0) variant.seconds.push_back(seconds);
+    }
+
+  std::printf("%d nodes, %d cells, %d repetitions\n", mesh.nodes.owned, mesh.cells.size(), repetitions);
+  for (const Variant& variant : variants) {
+    std::vector<double> ratio;
+    for (int k = 0; k < repetitions; ++k) ratio.push_back(variant.seconds[k] / variants[0].seconds[k]);
+    std::printf("  %-24s %7.2f ns per node   %5.3f x MATBAIJ\n", variant.name.c_str(),
+                median(variant.seconds) / mesh.nodes.owned * 1e9, median(ratio));
+  }
+  std::fflush(stdout);
+}
+
+Mesh triangles_with(PetscInt nodes) {
+  Block block;
+  block.width = block.height = 5e-3;
+  block.nx = block.ny = static_cast<int>(std::sqrt(static_cast<double>(nodes))) - 1;
+  block.distortion = 0.2;
+  const std::string path = scratch("bench.msh");
+  write_block(block, path);
+  return read_mesh(PETSC_COMM_SELF, {path});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
+  PetscInt nodes[16] = {4000, 24000, 145000}, count = 16, repetitions = 31;
+  PetscBool given = PETSC_FALSE;
+  char path[PETSC_MAX_PATH_LEN] = "";
+  petsc(PetscOptionsGetIntArray(nullptr, nullptr, "-nodes", nodes, &count, &given));
+  if (!given) count = 3;
+  petsc(PetscOptionsGetInt(nullptr, nullptr, "-repetitions", &repetitions, nullptr));
+  petsc(PetscOptionsGetString(nullptr, nullptr, "-mesh", path, sizeof(path), &given));
+  if (given) measure(read_mesh(PETSC_COMM_SELF, {path}), static_cast<int>(repetitions));
+  for (PetscInt k = 0; !given && k < count; ++k) measure(triangles_with(nodes[k]), static_cast<int>(repetitions));
+  petsc(PetscFinalize());
+  return 0;
+}
