@@ -51,13 +51,24 @@ def read_yaml(path):
         raise UnreadableRun(f"{path} is not valid YAML ({' '.join(str(error).split())}).") from error
 
 
+def grows(dataset):
+    """Whether the writer appends rows to it; where a node lies, say, is written once."""
+    return dataset.maxshape[:1] == (None,)
+
+
 def read_rows(file, required):
-    """All datasets of history.h5 by name, cut to the rows that all of them have (a point's place `x` has no rows)."""
-    columns = {}
-    file.visititems(lambda name, item: columns.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    """All datasets of history.h5 by name, those that grow cut to the rows that all of them have."""
+    columns, fixed = {}, set()
+
+    def take(name, item):
+        if isinstance(item, h5py.Dataset):
+            columns[name] = item[()]
+            if not grows(item):
+                fixed.add(name)
+
+    file.visititems(take)
     for name in required:
         read_dataset(file, name)
-    fixed = {name for name in columns if name.startswith("points/") and name.endswith("/x")}
     rows = min(len(columns[name]) for name in columns.keys() - fixed)
     if rows < 2:
         raise UnreadableRun(f"{file.filename} has no rows yet: let the run go on for a while.")
@@ -124,7 +135,7 @@ class ContactHistory:
     def __init__(self, folder):
         self._file = open_hdf5(Path(folder) / "contact.h5")
         self.x = read_dataset(self._file, "x")
-        growing = [name for name in self._file if name != "x"]
+        growing = [name for name, dataset in self._file.items() if grows(dataset)]
         self.rows = min((len(self._file[name]) for name in growing), default=0)
         self.time = read_dataset(self._file, "time")[:self.rows]
 
