@@ -55,7 +55,8 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
   const double mu = choice.coefficient;
   if (choice.law == FrictionChoice::Law::none) return Frictionless{};
-  if (choice.law == FrictionChoice::Law::coulomb) return Coulomb{mu};
+  const bool relaxes = (choice.by_slip_rate ? choice.length : choice.time) > 0;
+  if (choice.law == FrictionChoice::Law::coulomb || !relaxes) return Coulomb{mu};
   if (choice.by_slip_rate) {
     if (choice.stored_strength)
       return SlipRate<RegularizedStrength>{mu, choice.length, choice.rate_reference, time_step};

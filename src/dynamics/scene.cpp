@@ -8,6 +8,9 @@
 namespace slipscale {
 namespace {
 
+/// Far above what anybody can wait for, far below where steps can no longer be counted.
+constexpr double most_steps = 1e15;
+
 std::string list(const std::vector<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -62,7 +65,8 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
     scene.friction = read_friction(options, *scene.surface);
   } else {
     for (const char* option : {"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
-                               "friction_coefficient", "friction_length", "friction_time"})
+                               "friction_coefficient", "friction_length", "friction_time", "friction_rate",
+                               "friction_rate_reference", "friction_threshold"})
       if (options.given(option))
         throw UserError("-" + std::string(option) +
                         " has no effect without -surface_boundary; name the boundary that meets the surface");
@@ -97,7 +101,11 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
     throw UserError(format("-time_step is %.6g s, above the stable step of %.6g s for this mesh, beta2 and damping; "
                            "use at most %.4g or auto",
                            choice.step, choice.limit, 0.99 * choice.limit));
-  choice.count = static_cast<long>(std::ceil(time.end / choice.step * (1 - 1e-12)));
+  const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
+  if (!(count <= most_steps))
+    throw UserError(format("-time_end is %g s, which takes %g steps of %g s; a run has at most %g steps", time.end, count,
+                           choice.step, most_steps));
+  choice.count = static_cast<long>(count);
   return choice;
 }
 

@@ -47,6 +47,7 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       boundary_(model, boundary_names_),
       loads_(model.mesh, scene.conditions, boundary_),
       law_(friction_law(scene.friction, time_step)),
+      start_law_(friction_law(scene.friction, 0)),
       physics_(bulk_physics(scene)),
       free_motion_(free_motion_for(physics_)),
       ledger_(scene.beta2, time_step) {
@@ -128,7 +129,7 @@ void SlidingBody::advance(bool observed) {
     const ContactStep contact{step.displacement, step.velocity, surface_travel_, scene_.surface->velocity(now)};
     std::visit([&](const auto& law) {
       contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), state());
-    }, law_);
+    }, first ? start_law_ : law_);
   }
   u_.begin_update();
 

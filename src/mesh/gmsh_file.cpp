@@ -1,9 +1,12 @@
 #include "gmsh_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+
+#include "gmsh_check.hpp"
 
 namespace slipscale::mesh_stages {
 namespace {
@@ -41,7 +44,7 @@ std::vector<PhysicalName> physical_names(const std::string& bytes) {
 GmshFile scan_gmsh(const std::string& path, std::string& fault) {
   GmshFile file;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
+  if (!stream || !std::filesystem::is_regular_file(path)) {
     fault = "-mesh_file: cannot read '" + path + "'; give the path of a gmsh file (MSH 4.1)";
     return file;
   }
@@ -52,6 +55,9 @@ GmshFile scan_gmsh(const std::string& path, std::string& fault) {
     fault = "-mesh_file: '" + path + "' is not a gmsh mesh; write one with gmsh -2 -format msh41";
     return file;
   }
+  const GmshCheck check = check_gmsh(bytes);
+  if (!check.fault.empty()) fault = "mesh '" + path + "' " + check.fault;
+  file.vouched = check.vouched;
   file.checksum = fnv1a(bytes);
   file.names = physical_names(bytes);
   file.has_periodic_section = bytes.find("\n$Periodic") != std::string::npos;

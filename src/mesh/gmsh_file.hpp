@@ -15,6 +15,7 @@ struct PhysicalName {
 struct GmshFile {
   double version = 0;
   bool has_periodic_section = false;
+  bool vouched = false;  ///< PETSc can read it: every number was looked at
   std::uint64_t checksum = 0;
   std::vector<PhysicalName> names;
 };

@@ -18,17 +18,30 @@ Vector2 centre(const CellGeometry& cell) {
   return {sum[0] / n, sum[1] / n};
 }
 
-OwnedDM create_dm(MPI_Comm comm, const MeshSource& source) {
+OwnedDM create_dm(MPI_Comm comm, const MeshSource& source, bool interpolate, std::string& fault) {
   // One label for each physical name; without it only the first group of an entity in several would be kept.
   petsc(PetscOptionsSetValue(nullptr, "-dm_plex_gmsh_use_regions", "true"));
   OwnedDM dm;
-  const PetscErrorCode code = DMPlexCreateGmshFromFile(comm, source.file.c_str(), PETSC_TRUE, dm.put());
+  const PetscErrorCode code =
+      DMPlexCreateGmshFromFile(comm, source.file.c_str(), interpolate ? PETSC_TRUE : PETSC_FALSE, dm.put());
   petsc(PetscOptionsClearValue(nullptr, "-dm_plex_gmsh_use_regions"));
-  if (code) {
-    const std::string reason = take_petsc_message();
-    throw UserError("-mesh_file: '" + source.file + "' cannot be read as a gmsh mesh (" + reason +
-                    "); write it again with gmsh -2 -format msh41");
-  }
+  if (code)
+    fault = "-mesh_file: '" + source.file + "' cannot be read as a gmsh mesh (" + take_petsc_message() +
+            "); write it again with gmsh -2 -format msh41";
+  return dm;
+}
+
+/// PETSc parses the file on rank 0 and would leave the other ranks waiting when it fails there; so a file that was
+/// not looked through number by number is first read by rank 0 alone.
+OwnedDM create_dm(MPI_Comm comm, const MeshSource& source, const GmshFile& file) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::string fault;
+  if (rank == 0 && ranks > 1 && !file.vouched) create_dm(PETSC_COMM_SELF, source, false, fault);
+  throw_together(comm, fault);
+  OwnedDM dm = create_dm(comm, source, true, fault);
+  throw_together(comm, fault);
   petsc(DMViewFromOptions(dm, nullptr, "-dm_view"));
   return dm;
 }
@@ -42,6 +55,46 @@ void refine(MPI_Comm comm, int times, OwnedDM& dm) {
   }
 }
 
+/// On a torus PETSc puts a new vertex half-way between the homes of its ends, which for an edge across the seam is on
+/// the other side of the body. Gives such a vertex the place it has as a corner of the first cell around it. Rank 0.
+void bring_home(DM dm) {
+  PetscInt begin = 0, end = 0, node_begin = 0, node_end = 0;
+  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
+  petsc(DMPlexGetDepthStratum(dm, 0, &node_begin, &node_end));
+  std::vector<Vector2> first(static_cast<std::size_t>(node_end - node_begin));
+  std::vector<char> state(first.size(), 0);  // 0 not seen, 1 away from home, 2 at home
+  for (PetscInt cell = begin; cell < end; ++cell) {
+    const auto geometry = cell_geometry(dm, cell);
+    for (std::size_t k = 0; k < geometry.vertices.size(); ++k) {
+      const Vector2 &corner = geometry.corners[k], home = vertex_position(dm, geometry.vertices[k]);
+      const auto node = static_cast<std::size_t>(geometry.vertices[k] - node_begin);
+      if (state[node] == 0) first[node] = corner;
+      const double size = std::sqrt(std::abs(geometry.area()));
+      const bool at_home = std::hypot(corner[0] - home[0], corner[1] - home[1]) < 1e-6 * size;
+      state[node] = at_home ? 2 : std::max<char>(state[node], 1);
+    }
+  }
+  Vec coordinates = nullptr;
+  PetscSection section = nullptr;
+  petsc(DMGetCoordinatesLocal(dm, &coordinates));
+  petsc(DMGetCoordinateSection(dm, &section));
+  PetscScalar* values = nullptr;
+  petsc(VecGetArray(coordinates, &values));
+  for (std::size_t node = 0; node < state.size(); ++node) {
+    if (state[node] != 1) continue;
+    PetscInt offset = 0;
+    petsc(PetscSectionGetOffset(section, node_begin + static_cast<PetscInt>(node), &offset));
+    values[offset] = first[node][0];
+    values[offset + 1] = first[node][1];
+  }
+  petsc(VecRestoreArray(coordinates, &values));
+}
+
+std::string too_narrow(const MeshSource& source, const Vector2& place) {
+  return "mesh '" + source.file + "' has fewer than three cells across a period near " + at(place) +
+         "; mesh it finer";
+}
+
 /// Fewer than three cells across a period make two edges with the same ends, which a DMPlex merges.
 std::string fault_in_torus(DM dm, const MeshSource& source) {
   PetscInt begin = 0, end = 0;
@@ -49,7 +102,9 @@ std::string fault_in_torus(DM dm, const MeshSource& source) {
   std::map<std::pair<PetscInt, PetscInt>, Vector2> link;
   for (PetscInt cell = begin; cell < end; ++cell) {
     const auto geometry = cell_geometry(dm, cell);
-    if (geometry.corners.size() != geometry.vertices.size()) continue;
+    const std::size_t corners = geometry.corners.size(), vertices = geometry.vertices.size();
+    if (vertices < corners && corners <= 4) return too_narrow(source, geometry.corners[0]);
+    if (vertices != corners) continue;
     const double size = std::sqrt(std::abs(geometry.area()));
     for (std::size_t a = 0; a < geometry.vertices.size(); ++a)
       for (std::size_t b = a + 1; b < geometry.vertices.size(); ++b) {
@@ -61,8 +116,7 @@ std::string fault_in_torus(DM dm, const MeshSource& source) {
         }
         const auto [known, is_new] = link.try_emplace({va, vb}, d);
         if (va == vb || (!is_new && std::hypot(known->second[0] - d[0], known->second[1] - d[1]) > 0.5 * size))
-          return "mesh '" + source.file + "' has fewer than three cells across a period near " +
-                 at(geometry.corners[a]) + "; mesh it finer";
+          return too_narrow(source, geometry.corners[a]);
       }
   }
   return "";
@@ -137,7 +191,7 @@ struct Survey {
     }
     // Relative to its longest edge, so that a mesh in millimetres or metres is judged alike.
     const double smallest = geometry.smallest_corner();
-    if (smallest <= 1e-9 * longest * longest)
+    if (!(smallest > 1e-9 * longest * longest))  // not a number counts as well
       fault = "mesh '" + source.file + "': the cell at " + at(centre(geometry)) +
               (smallest < 0 ? " is inverted (its corners do not run counter-clockwise, or it is not convex)"
                             : " is degenerate (it has next to no area)") +
@@ -240,7 +294,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
     if (entry.dimension == 2) whole.regions.push_back({entry.name, entry.tag});
     if (entry.dimension == 1) whole.boundaries.push_back({.name = entry.name, .tag = entry.tag});
   }
-  whole.dm = create_dm(comm, source);
+  whole.dm = create_dm(comm, source, file);
   PetscInt dimension = 0;
   petsc(DMGetDimension(whole.dm, &dimension));
   if (dimension != 2)
@@ -250,6 +304,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   MPI_Comm_rank(comm, &rank);
   throw_together(comm, rank == 0 ? fault_in_torus(whole.dm, source) : "");
   refine(comm, source.refine, whole.dm);
+  if (rank == 0 && source.refine > 0) bring_home(whole.dm);
 
   Survey survey{source, whole, {}, {}, {}};
   if (rank == 0) {

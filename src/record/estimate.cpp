@@ -9,7 +9,7 @@ namespace slipscale {
 namespace {
 
 constexpr double per_dataset = 16384 + 2000;  // the last, partly filled chunk; headers and attributes
-constexpr double per_frame = 4000;            // groups, headers and attributes
+constexpr double per_frame = 8000;            // groups, headers and attributes; the mesh's too
 
 }  // namespace
 
@@ -23,7 +23,7 @@ double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
   const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
                        quantities.stress * vector * static_cast<double>(cells) + per_frame;
   const double mesh = 2 * sizeof(double) * static_cast<double>(points) + 5 * 4 * static_cast<double>(cells);
-  return frames * frame + mesh;
+  return frames * frame + mesh + per_frame;
 }
 
 std::string readable_bytes(double bytes) {

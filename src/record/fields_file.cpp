@@ -1,9 +1,12 @@
 #include "slipscale/record/fields_file.hpp"
 
+#include <filesystem>
 #include <sstream>
 
+#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/record/estimate.hpp"
 #include "slipscale/record/output_folder.hpp"
 #include "xdmf.hpp"
 
@@ -76,6 +79,7 @@ FieldsFile::FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folde
   keep_hdf5_messages();
   MPI_Comm_rank(comm, &rank_);
   together(comm_, path(), [&] { file_ = create_file(comm_, path()); });
+  reserve(fields_bytes(0, image_.points().total(), image_.cells().total(), quantities_));
   write_mesh(mesh);
   together(comm_, path(), [&] {
     time_ = create_dataset(file_, "/time", H5T_IEEE_F64LE, {0}, {H5S_UNLIMITED}, {512});
@@ -117,6 +121,8 @@ void FieldsFile::write_mesh(const Mesh& mesh) {
 
 void FieldsFile::write(double time, const double* u, const double* v, const double* stress) {
   const std::string frame = frame_path(times_.size());
+  const double bytes = fields_bytes(1, image_.points().total(), image_.cells().total(), quantities_);
+  reserve(bytes);
   if (quantities_.u) write_nodal({frame + "/u", "m", "displacement of the points; x, y and 0"}, u);
   if (quantities_.v) write_nodal({frame + "/v", "m/s", "velocity of the points; x, y and 0"}, v);
   if (quantities_.stress)
@@ -126,6 +132,13 @@ void FieldsFile::write(double time, const double* u, const double* v, const doub
   times_.push_back(time);
   together(comm_, folder_ + "/fields.xdmf", [&] {
     if (rank_ == 0) replace_text_file(folder_ + "/fields.xdmf", xdmf_text(layout(), times_));
+  });
+}
+
+void FieldsFile::reserve(double bytes) {
+  together(comm_, path(), [&] {
+    if (rank_ == 0)
+      reserve_space(path(), std::filesystem::file_size(path()), static_cast<std::uint64_t>(bytes));
   });
 }
 

@@ -8,18 +8,21 @@ HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const
   step_ = file_.add("/step", {}, "1", "number of the step, n");
   for (const std::string& name : body.boundary_names()) {
     const std::string group = "/boundary/" + name + "/";
-    boundary_.push_back(file_.add(group + "normal_force", {}, "N/m", "force of the body on " + name + ", > 0 in compression"));
-    boundary_.push_back(file_.add(group + "tangential_force", {}, "N/m", "force of the body on " + name + " along +x"));
+    boundary_.push_back(file_.add(group + "normal_force", {}, "N/m",
+                                  "force of the body on " + name + ", > 0 in compression"));
+    boundary_.push_back(
+        file_.add(group + "tangential_force", {}, "N/m", "force of the body on " + name + " along +x"));
   }
   if (!body.scene().measured.empty())
     friction_ = file_.add("/friction/global", {}, "1",
                           "tangential over normal force at " + body.scene().measured + "; NaN without load");
   if (body.scene().surface) {
-    surface_ = {file_.add("/surface/normal_force", {}, "N/m", "force of the surface on the body along +y"),
-                file_.add("/surface/tangential_force", {}, "N/m", "force of the surface on the body along +x"),
-                file_.add("/surface/drive_power", {}, "W/m", "power of the motor that drives the surface"),
-                file_.add("/surface/power_into_body", {}, "W/m", "power of friction on the moving body"),
-                file_.add("/surface/friction_heat", {}, "W/m", "power turned into heat at the surface")};
+    surface_ = {
+        file_.add("/surface/normal_force", {}, "N/m", "force of the surface on the body along +y"),
+        file_.add("/surface/tangential_force", {}, "N/m", "force of the surface on the body along +x"),
+        file_.add("/surface/drive_power", {}, "W/m", "power of the motor that drives the surface"),
+        file_.add("/surface/power_into_body", {}, "W/m", "power of friction on the moving body"),
+        file_.add("/surface/friction_heat", {}, "W/m", "power turned into heat at the surface")};
     fractions_ = {file_.add("/contact/stick", {}, "1", "part of the contact boundary's length that sticks"),
                   file_.add("/contact/slip", {}, "1", "part of it that slips"),
                   file_.add("/contact/open", {}, "1", "part of it that is open")};
@@ -48,7 +51,8 @@ void HistoryFile::add_energy() {
       {"scheme_dissipation", "energy lost to the time scheme since t = 0"},
       {"residual", "what the balance misses"},
       {"flowed", "sum of the sizes of all terms, the scale of the residual"}};
-  for (const auto& [name, text] : terms) energy_.push_back(file_.add(std::string("/energy/") + name, {}, "J/m", text));
+  for (const auto& [name, text] : terms)
+    energy_.push_back(file_.add(std::string("/energy/") + name, {}, "J/m", text));
 }
 
 void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
@@ -60,15 +64,16 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
   }
   if (friction_ >= 0) file_.append(friction_, seen.friction);
   if (!surface_.empty()) {
-    const double values[] = {seen.surface.normal, seen.surface.tangential, seen.drive_power, seen.power_into_body,
-                             seen.friction_heat};
+    const double values[] = {seen.surface.normal, seen.surface.tangential, seen.drive_power,
+                             seen.power_into_body, seen.friction_heat};
     for (std::size_t k = 0; k < surface_.size(); ++k) file_.append(surface_[k], values[k]);
     const double fractions[] = {seen.stick, seen.slip, seen.open};
     for (std::size_t k = 0; k < fractions_.size(); ++k) file_.append(fractions_[k], fractions[k]);
   }
   const Energy& e = seen.energy;
-  const double energy[] = {e.kinetic,       e.strain,      e.loads,   e.supports,           e.body_force, e.surface_drive,
-                           e.friction_heat, e.impact_loss, e.damping, e.scheme_dissipation, e.residual,   e.flowed};
+  const double energy[] = {e.kinetic,       e.strain,        e.loads,       e.supports, e.body_force,
+                           e.surface_drive, e.friction_heat, e.impact_loss, e.damping,  e.scheme_dissipation,
+                           e.residual,      e.flowed};
   for (std::size_t k = 0; k < energy_.size(); ++k) file_.append(energy_[k], energy[k]);
   for (std::size_t p = 0; p < probes.size(); ++p) {
     file_.append(points_[3 * p], probes[p].u.data());
@@ -81,11 +86,14 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
 ContactFile::ContactFile(const std::string& path, const Observer& observer)
     : file_(path), length_(observer.tributary_length()) {
   const hsize_t nodes = observer.contact_x().size();
-  file_.constant("/x", observer.contact_x().data(), {nodes}, "m", "where the contact nodes are in the undeformed body");
-  file_.constant("/tributary_length", length_.data(), {nodes}, "m", "length of the boundary that belongs to each node");
+  file_.constant("/x", observer.contact_x().data(), {nodes}, "m",
+                 "where the contact nodes are in the undeformed body");
+  file_.constant("/tributary_length", length_.data(), {nodes}, "m",
+                 "length of the boundary that belongs to each node");
   time_ = file_.add("/time", {}, "s", "time of the row");
   u_ = file_.add("/u", {nodes, 2}, "m", "displacement");
-  slip_rate_ = file_.add("/slip_rate", {nodes}, "m/s", "velocity of the surface relative to the node, along +x");
+  slip_rate_ =
+      file_.add("/slip_rate", {nodes}, "m/s", "velocity of the surface relative to the node, along +x");
   normal_ = file_.add("/normal_traction", {nodes}, "Pa", "pressure, >= 0");
   tangential_ = file_.add("/tangential_traction", {nodes}, "Pa", "traction on the body along +x");
   status_ = file_.add("/status", {nodes}, "1", "0 open, 1 stick, 2 slip", SeriesFile::Storage::byte);

@@ -40,9 +40,10 @@ Probes::Probes(MPI_Comm comm, const Model& model, const std::vector<Vector2>& po
   const Mesh& mesh = model.mesh;
   for (int p = 0; p < static_cast<int>(points.size()); ++p)
     if (!place_on_node(comm, mesh, p) && !place_in_cell(comm, mesh, p))
-      throw UserError(format("-history_points: (%g, %g) m lies outside the body, which spans x %g to %g m and y %g to "
-                             "%g m; move the point",
-                             points[p][0], points[p][1], mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1]));
+      throw UserError(
+          format("-history_points: (%g, %g) m lies outside the body, which spans x %g to %g m and y %g to "
+                 "%g m; move the point",
+                 points[p][0], points[p][1], mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1]));
   for (std::size_t c = 0; c < corners_.size(); ++c)
     for (int i = 0; i < mesh.nodes.owned; ++i)
       if (mesh.nodes.number[i] == corners_[c].number) {
@@ -58,7 +59,8 @@ bool Probes::place_on_node(MPI_Comm comm, const Mesh& mesh, int point) {
   const Vector2 x = positions_[point];
   int node = -1;
   for (int i = 0; i < mesh.nodes.owned && node < 0; ++i)
-    if (std::hypot(mesh.nodes.position[i][0] - x[0], mesh.nodes.position[i][1] - x[1]) <= 1e-6 * size) node = i;
+    if (std::hypot(mesh.nodes.position[i][0] - x[0], mesh.nodes.position[i][1] - x[1]) <= 1e-6 * size)
+      node = i;
   const Claim claim = lowest_claim(comm, node < 0 ? nobody : static_cast<long>(mesh.nodes.number[node]));
   if (claim.number == nobody) return false;
   corners_.push_back({point, static_cast<PetscInt>(claim.number), 1.0});
@@ -102,7 +104,8 @@ bool Probes::place_in_cell(MPI_Comm comm, const Mesh& mesh, int point) {
   }
   MPI_Bcast(&told, sizeof told, MPI_BYTE, claim.rank, comm);
   for (int k = 0; k < 4; ++k)
-    if (told.numbers[k] >= 0) corners_.push_back({point, static_cast<PetscInt>(told.numbers[k]), told.weights[k]});
+    if (told.numbers[k] >= 0)
+      corners_.push_back({point, static_cast<PetscInt>(told.numbers[k]), told.weights[k]});
   return true;
 }
 

@@ -32,7 +32,8 @@ bool writes_to_terminal() {
   if (!isatty(STDOUT_FILENO)) return false;
   if (!std::getenv("OMPI_COMM_WORLD_RANK")) return true;
   // Our terminal is mpirun's pseudo terminal; what counts is where mpirun writes.
-  const int output = open(format("/proc/%d/fd/1", static_cast<int>(getppid())).c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK);
+  const int output =
+      open(format("/proc/%d/fd/1", static_cast<int>(getppid())).c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK);
   const bool terminal = output >= 0 && isatty(output);
   if (output >= 0) close(output);
   return terminal;

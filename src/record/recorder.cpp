@@ -16,25 +16,44 @@ bool is_root(MPI_Comm comm) {
   return rank == 0;
 }
 
-/// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below it.
+/// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
+/// it.
 constexpr double largest_sound_residual = 1e-6;
+
+std::vector<long> steps_of(const std::vector<double>& times, const TimeStep& time) {
+  std::vector<long> steps;
+  for (const double t : times) {
+    const double n = std::round(t / time.step);
+    if (!(n >= 0 && n <= static_cast<double>(time.count)))
+      throw UserError(format("-fields_times: %g s lies outside the run, which ends at %g s; give times from 0 to its end", t,
+                             static_cast<double>(time.count) * time.step));
+    steps.push_back(static_cast<long>(n));
+  }
+  std::sort(steps.begin(), steps.end());
+  return steps;
+}
 
 }  // namespace
 
 Schema record_schema() {
   return {
-      {"output_folder", Kind::text, "", "out", range::any, "folder of the run; an older run in it is replaced"},
-      {"history_every", Kind::integer, "1", "10", range::at_least_one, "steps between the rows of history.h5"},
+      {"output_folder", Kind::text, "", "out", range::any,
+       "folder of the run; an older run in it is replaced"},
+      {"history_every", Kind::integer, "1", "10", range::at_least_one,
+       "steps between the rows of history.h5"},
       {"history_points", Kind::reals, "m", absent, range::any,
        "points x1,y1,x2,y2,... whose u, v and stress are followed"},
       {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of contact.h5; auto makes about a thousand rows"},
-      {"fields_every", Kind::integer, "1", absent, range::at_least_one, "steps between the frames of fields.h5"},
+      {"fields_every", Kind::integer, "1", absent, range::at_least_one,
+       "steps between the frames of fields.h5"},
       {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
-      {"fields_quantities", Kind::text, "", "u,v,stress", range::any, "what a frame holds: some of u,v,stress"},
+      {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
+       "what a frame holds: some of u,v,stress"},
       {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
        "auto shows a line of progress when the output is a terminal"},
-      {"run_<entry>", Kind::text, "", absent, range::any, "facts that run.yaml carries; ignored when it is read again"},
+      {"run_<entry>", Kind::text, "", absent, range::any,
+       "facts that run.yaml carries; ignored when it is read again"},
   };
 }
 
@@ -48,7 +67,8 @@ RecordChoice read_record(const Options& options) {
   for (std::size_t k = 0; k < points.size(); k += 2) choice.points.push_back({points[k], points[k + 1]});
   const std::string contact = options.text("contact_every");
   if (contact != "auto") choice.contact_every = std::lround(std::stod(contact));
-  if (const auto every = options.find_integer("fields_every")) choice.fields_every = static_cast<long>(*every);
+  if (const auto every = options.find_integer("fields_every"))
+    choice.fields_every = static_cast<long>(*every);
   choice.fields_times = options.reals("fields_times");
   if (choice.fields_every && !choice.fields_times.empty())
     throw UserError("-fields_every contradicts -fields_times; give one of them");
@@ -65,19 +85,12 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       history_every_(choice.history_every),
       has_contact_(body.scene().surface.has_value()),
       contact_every_(choice.contact_every ? *choice.contact_every : std::max(1L, time.count / 1000)),
-      folder_(body.comm(), choice.folder),
+      field_steps_(steps_of(choice.fields_times, time)),
       observer_(body),
       probes_(body.comm(), body.model(), choice.points),
+      folder_(body.comm(), choice.folder),
       progress_(choice.progress, 0, static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
-  for (const double t : choice.fields_times) {
-    const long n = std::lround(t / time.step);
-    if (n < 0 || n > last_)
-      throw UserError(format("-fields_times: %g s lies outside the run, which ends at %g s", t,
-                             static_cast<double>(last_) * time.step));
-    field_steps_.push_back(n);
-  }
-  std::sort(field_steps_.begin(), field_steps_.end());
   if (choice.fields_every || !field_steps_.empty())
     fields_ = std::make_unique<FieldsFile>(body.comm(), body.model().mesh, folder_.path(), choice.quantities);
   if (is_root(body.comm())) {
@@ -126,8 +139,9 @@ void Recorder::check(const Observation& seen) const {
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
   if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
   throw RunError(format("step %ld (t = %g s): ", seen.step, seen.time) +
-                 (finite ? format("the energy balance misses %g J/m of %g J/m that flowed", e.residual, e.flowed)
-                         : std::string("the state is no longer finite")) +
+                 (finite
+                      ? format("the energy balance misses %g J/m of %g J/m that flowed", e.residual, e.flowed)
+                      : std::string("the state is no longer finite")) +
                  "; the rows before it are kept in '" + folder_.path() + "'. Try a smaller -time_safety");
 }
 

@@ -19,8 +19,8 @@ int rank_of(MPI_Comm comm) {
   return rank;
 }
 
-/// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness, which is
-/// timed here (bulk arrays, damping and boundary nodes make up the rest).
+/// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness,
+/// which is timed here (bulk arrays, damping and boundary nodes make up the rest).
 double predicted_step_seconds(const SlidingBody& body) {
   const Model& model = body.model();
   NodalVector x(body.comm(), model.mesh.nodes, true);
@@ -42,7 +42,9 @@ double memory_of_all_ranks(MPI_Comm comm) {
   return memory;
 }
 
-std::string hexadecimal(std::uint64_t value) { return format("%016llx", static_cast<unsigned long long>(value)); }
+std::string hexadecimal(std::uint64_t value) {
+  return format("%016llx", static_cast<unsigned long long>(value));
+}
 
 }  // namespace
 
@@ -57,9 +59,9 @@ std::string Recorder::forecast() const {
   if (fields_) bytes += fields_bytes(frames, mesh.nodes.total, mesh.cells.total, choice_.quantities);
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
   return format("%ld steps to %s, about %s, memory %s, output %s in '%s'\n", last_,
-                engineering(static_cast<double>(last_) * time_.step, "s").c_str(), readable_duration(seconds).c_str(),
-                readable_bytes(memory_of_all_ranks(body_.comm())).c_str(), readable_bytes(bytes).c_str(),
-                folder_.path().c_str());
+                engineering(static_cast<double>(last_) * time_.step, "s").c_str(),
+                readable_duration(seconds).c_str(), readable_bytes(memory_of_all_ranks(body_.comm())).c_str(),
+                readable_bytes(bytes).c_str(), folder_.path().c_str());
 }
 
 void Recorder::write_run(const Options& options) const {
@@ -73,7 +75,9 @@ void Recorder::write_run(const Options& options) const {
       {"mesh_checksum", "'" + hexadecimal(model.mesh.checksum) + "'", "FNV-1a of the mesh file"},
       {"nodes", std::to_string(model.mesh.nodes.total), ""},
       {"cells", std::to_string(model.mesh.cells.total), ""},
-      {"block", format("[%g, %g]", model.mesh.upper[0] - model.mesh.lower[0], model.mesh.upper[1] - model.mesh.lower[1]),
+      {"block",
+       format("[%g, %g]", model.mesh.upper[0] - model.mesh.lower[0],
+              model.mesh.upper[1] - model.mesh.lower[1]),
        "m, width and height"},
       {"largest_frequency", format("%.6g", time_.frequency.sharp), "1/s, Lanczos"},
       {"largest_frequency_bound", format("%.6g", time_.frequency.safe), "1/s, largest element"},
@@ -82,8 +86,8 @@ void Recorder::write_run(const Options& options) const {
       {"steps", std::to_string(time_.count), ""}};
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
     const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
-    facts.push_back({"wave_speeds_" + model.mesh.regions[r].name, format("[%.6g, %.6g]", speeds.fast, speeds.slow),
-                     "m/s along y"});
+    facts.push_back({"wave_speeds_" + model.mesh.regions[r].name,
+                     format("[%.6g, %.6g]", speeds.fast, speeds.slow), "m/s along y"});
   }
   folder_.write_text("run.yaml", run_yaml(options.effective(), facts));
 }
@@ -97,7 +101,8 @@ std::string Recorder::finish() {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string text;
   if (rank_of(body_.comm()) == 0)
-    text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_, seconds});
+    text =
+        summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_, seconds});
   folder_.write_text("summary.yaml", text);
   return text;
 }

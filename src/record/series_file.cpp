@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 
+#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 
 namespace slipscale {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::size_t chunk_bytes = 16384;  ///< small, because every chunk is written whole, rows or no rows
 constexpr std::size_t batch_bytes = 8 << 20;  ///< a batch this large does not wait for the clock
+constexpr std::size_t index_bytes = 4096;     ///< what HDF5's index of the chunks may grow by
 constexpr double writing_share = 0.02;  ///< batches are spaced so that writing takes no more of the time
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -109,19 +111,29 @@ void SeriesFile::end_row() {
     if (column.batch.size() != waiting * column.bytes)
       fault_ =
           path_ + ": '" + column.path + "' was not given exactly once in row " + std::to_string(rows_ - 1);
-  if (waiting * row_bytes_ >= batch_bytes || seconds_since(last_) >= pause_) flush();
+  // The first row at once: until then HDF5's file is not one.
+  if (written_ == 0 || waiting * row_bytes_ >= batch_bytes || seconds_since(last_) >= pause_) flush();
 }
 
 void SeriesFile::flush() {
   const auto start = Clock::now();
   guarded("cannot be written (disk full?)", [&] {
     if (!file_.open() || rows_ == written_) return;
+    reserve();
     for (Column& column : columns_) write_batch(column);
     hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
     written_ = rows_;
   });
   pause_ = std::max(seconds_, seconds_since(start) / writing_share);
   last_ = Clock::now();
+}
+
+void SeriesFile::reserve() {
+  hsize_t size = 0, bytes = 0;
+  hdf5(H5Fget_filesize(file_, &size), "size");
+  for (const Column& column : columns_)
+    bytes += column.batch.size() + chunk_bytes + column.bytes + index_bytes;
+  reserve_space(path_, size, bytes);
 }
 
 void SeriesFile::write_batch(Column& column) {

@@ -17,7 +17,8 @@ double mean(const std::vector<Observation>& rows, std::size_t from, Value&& valu
   return rows.size() > from ? sum / static_cast<double>(rows.size() - from) : 0;
 }
 
-/// Mean tangential over mean normal load, never the mean of the ratio, which runs away when the body lifts off.
+/// Mean tangential over mean normal load, never the mean of the ratio, which runs away when the body lifts
+/// off.
 void write_friction(Yaml& yaml, const SummaryInput& in, std::size_t from) {
   const auto load = [&](const Observation& row) { return row.boundaries[in.measured]; };
   const double normal = mean(in.rows, from, [&](const auto& row) { return load(row).normal; });
@@ -25,7 +26,8 @@ void write_friction(Yaml& yaml, const SummaryInput& in, std::size_t from) {
   yaml.begin("load", "at boundary " + in.body.scene().measured);
   yaml.number("mean_normal_force", normal, "N/m");
   yaml.number("mean_tangential_force", tangential, "N/m");
-  if (normal != 0) yaml.number("mean_friction", tangential / normal, "mean tangential over mean normal force");
+  if (normal != 0)
+    yaml.number("mean_friction", tangential / normal, "mean tangential over mean normal force");
   yaml.end();
   if (normal == 0) return;
 
@@ -42,11 +44,13 @@ void write_friction(Yaml& yaml, const SummaryInput& in, std::size_t from) {
 
 void write_contact(Yaml& yaml, const SummaryInput& in, std::size_t from) {
   yaml.begin("contact");
-  yaml.number("stick", mean(in.rows, from, [](const auto& row) { return row.stick; }), "part of the boundary's length");
+  yaml.number("stick", mean(in.rows, from, [](const auto& row) { return row.stick; }),
+              "part of the boundary's length");
   yaml.number("slip", mean(in.rows, from, [](const auto& row) { return row.slip; }));
   yaml.number("open", mean(in.rows, from, [](const auto& row) { return row.open; }));
   yaml.number("drive_power", mean(in.rows, from, [](const auto& row) { return row.drive_power; }), "W/m");
-  yaml.number("power_into_body", mean(in.rows, from, [](const auto& row) { return row.power_into_body; }), "W/m");
+  yaml.number("power_into_body", mean(in.rows, from, [](const auto& row) { return row.power_into_body; }),
+              "W/m");
   yaml.end();
 }
 

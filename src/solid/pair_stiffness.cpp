@@ -37,10 +37,23 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
   std::vector<int> order(higher.size()), row_of(higher.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return number[a] < number[b]; });
+  constexpr std::size_t rows_of_a_chunk = 256;
+  Chunk chunk{0, 0, 0, 0, 0};
   for (int node : order) {
-    row_of[node] = static_cast<int>(rows_.size());
+    row_of[node] = chunk.end++;
     rows_.push_back({node, static_cast<int>(high_.size())});
     high_.insert(high_.end(), higher[node].begin(), higher[node].end());
+    for (int high : higher[node])
+      if (high < owned_) chunk.touched = std::max(chunk.touched, high + 1);
+    if (node < owned_) {
+      chunk.complete_end = node + 1;
+      chunk.touched = std::max(chunk.touched, node + 1);
+    }
+    if (rows_.size() % rows_of_a_chunk == 0 || rows_.size() == order.size()) {
+      chunks_.push_back(chunk);
+      chunk.begin = chunk.end;
+      chunk.complete_begin = chunk.complete_end;
+    }
   }
   rows_.push_back({-1, static_cast<int>(high_.size())});
 
@@ -55,10 +68,11 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
       for (int b = 0; b < count; ++b) {
         const int low = nodes[a], high = nodes[b];
         if (number[low] >= number[high] || std::min(low, high) >= owned_) continue;
-        const auto begin = high_.begin() + rows_[row_of[low]].first, end = high_.begin() + rows_[row_of[low] + 1].first;
-        auto& sum = sums[std::find(begin, end, high) - high_.begin()];
-        for (int row = 0; row < 2; ++row)
-          for (int column = 0; column < 2; ++column) sum[2 * row + column] += k(2 * a + row, 2 * b + column);
+        int pair = rows_[row_of[low]].first;
+        while (high_[pair] != high) ++pair;
+        auto& sum = sums[pair];
+        for (int m = 0; m < 2; ++m)
+          for (int n = 0; n < 2; ++n) sum[2 * m + n] += k(2 * a + m, 2 * b + n);
       }
   }
   blocks_.reserve(sums.size());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,16 @@ struct Node {
 
   ContactNodes contact;
   Vector2 before{0.1, -0.5}, u{0.1, -0.5}, v{0, 0}, a{0, 0}, support{0, 0};
+};
+
+/// A law that only looks.
+struct Spy {
+  static constexpr bool uses_slip_rate = true;
+  double* seen;
+  Friction operator()(const FrictionDemand& demand, FrictionMemory&) const {
+    *seen = demand.slip_rate;
+    return {0, ContactStatus::slip};
+  }
 };
 
 }  // namespace
@@ -113,14 +124,6 @@ TEST(ContactNodes, HeldNodeThatDoesNotSlipCarriesTheReaction) {
 
 /// `rate: slip` sees V minus the velocity the node came with: v_n without what a_n added to it.
 TEST(ContactNodes, SlipRateIsThatBeforeTheForcesOfTheStep) {
-  struct Spy {
-    static constexpr bool uses_slip_rate = true;
-    double* seen;
-    Friction operator()(const FrictionDemand& demand, FrictionMemory&) const {
-      *seen = demand.slip_rate;
-      return {0, ContactStatus::slip};
-    }
-  };
   Node node;
   node.u[1] = -clearance - 1e-4;
   node.v[0] = 0.05;

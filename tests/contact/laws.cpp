@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "slipscale/contact/law.hpp"
@@ -9,7 +10,7 @@ using namespace slipscale;
 
 namespace {
 
-constexpr double mu = 0.5;
+constexpr double mu = 0.5, infinity = std::numeric_limits<double>::infinity();
 
 FrictionChoice regularized(bool stored, double time) {
   FrictionChoice choice;
@@ -67,11 +68,16 @@ TEST(Frictionless, HasNoTraction) {
   EXPECT_EQ(Frictionless{}({7, 2, 0}, memory).traction, 0);
 }
 
-/// L* → 0: T = 0 gives Coulomb, bit for bit, whatever came before. So does `rate: slip` with L = 0.
+/// L* → 0 gives Coulomb, bit for bit, whatever came before: as chosen by the user, and in the laws
+/// themselves.
 TEST(Regularized, WithoutTimeIsCoulomb) {
   for (const bool stored : {false, true})
     for (const FrictionLaw& law :
-         {friction_law(regularized(stored, 0), 1e-9), friction_law(by_slip_rate(stored, 0), 1e-9)}) {
+         {friction_law(regularized(stored, 0), 1e-9), friction_law(by_slip_rate(stored, 0), 1e-9),
+          stored ? FrictionLaw(RegularizedStrength{mu, relaxation(infinity)})
+                 : FrictionLaw(RegularizedInstantaneous{mu, relaxation(infinity)}),
+          stored ? FrictionLaw(SlipRate<RegularizedStrength>{mu, 0, 0.25, 1e-9})
+                 : FrictionLaw(SlipRate<RegularizedInstantaneous>{mu, 0, 0.25, 1e-9})}) {
       Demands demands;
       FrictionMemory memory, unused;
       int stuck = 0;
@@ -90,13 +96,30 @@ TEST(Regularized, WithoutTimeIsCoulomb) {
 /// L* → ∞: the traction of a slipping node, or the stored strength, stays what it was.
 TEST(Regularized, WithInfiniteTimeIsFrozen) {
   for (const bool stored : {false, true}) {
-    const FrictionLaw law = friction_law(regularized(stored, std::numeric_limits<double>::infinity()), 1e-9);
+    const FrictionLaw law = friction_law(regularized(stored, infinity), 1e-9);
     FrictionMemory memory{0.125, 2};
     for (const double pressure : {2.0, 0.5, 7.0}) {
       const Friction friction = ask(law, {30, pressure, 0}, memory);
       EXPECT_EQ(friction.traction, 0.125);
       EXPECT_EQ(friction.status, ContactStatus::slip);
     }
+  }
+}
+
+/// At the start no time has passed since the memory: it is what slips, and with no length to relax over it is
+/// Coulomb's.
+TEST(Regularized, AtTheStartAnswersTheMemory) {
+  for (const bool stored : {false, true})
+    for (const FrictionLaw& law :
+         {friction_law(regularized(stored, 2), 0), friction_law(by_slip_rate(stored, 2), 0)}) {
+      FrictionMemory memory{0.3, 7};
+      EXPECT_EQ(ask(law, {9, 2, 1}, memory).traction, 0.3);
+      EXPECT_EQ(memory.pressure, 2);
+    }
+  for (const FrictionLaw& law :
+       {friction_law(regularized(false, 0), 0), friction_law(by_slip_rate(true, 0), 0)}) {
+    FrictionMemory memory{0.3, 7};
+    EXPECT_EQ(ask(law, {9, 2, 1}, memory).traction, 1);
   }
 }
 

@@ -106,12 +106,13 @@ TEST(SeriesFile, BatchesAreWrittenByTime) {
     file.append(time, 1.0);
     file.end_row();
   };
-  file.flush();
   row();
-  EXPECT_EQ(rows_on_disk(path, "time"), 0u);
+  EXPECT_EQ(rows_on_disk(path, "time"), 1u) << "the first row does not wait";
+  row();
+  EXPECT_EQ(rows_on_disk(path, "time"), 1u);
   std::this_thread::sleep_for(std::chrono::milliseconds(1000));
   row();
-  EXPECT_EQ(rows_on_disk(path, "time"), 2u);
+  EXPECT_EQ(rows_on_disk(path, "time"), 3u);
 }
 
 TEST(SeriesFile, LargeBatchesDoNotWait) {
@@ -119,11 +120,11 @@ TEST(SeriesFile, LargeBatchesDoNotWait) {
   SeriesFile file(path, 1000);
   const int u = file.add("/u", {1 << 17}, "m", "a megabyte a row");
   const std::vector<double> row(1 << 17, 3.0);
-  for (int n = 0; n < 9; ++n) {
+  for (int n = 0; n < 10; ++n) {
     file.append(u, row.data());
     file.end_row();
   }
-  EXPECT_EQ(rows_on_disk(path, "u"), 8u);
+  EXPECT_EQ(rows_on_disk(path, "u"), 9u);
 }
 
 TEST(SeriesFile, AForgottenQuantityIsAFault) {
@@ -163,7 +164,7 @@ TEST(SeriesFile, AFullDiskIsAFaultAndLeavesAReadableFile) {
     EXPECT_NE(file.fault().find("File too large"), std::string::npos) << file.fault();
     file.close();
   }
-  EXPECT_NO_THROW(read_back::everything(path));
+  EXPECT_GE(read_back::everything(path).at("u").shape[0], 10u);
 }
 
 TEST(SeriesFile, CanBeReadWhileItIsWrittenAndAfterAKill) {

@@ -29,7 +29,8 @@ Schema friction_schema();
 /// contradictory constant, and for `rate: surface` with V = 0 when T itself is not given.
 FrictionChoice read_friction(const Options& options, const Surface& surface);
 
-/// The law for one time step [s].
+/// The law where `time_step` [s] has passed since the memory was kept; 0 answers the memory itself. Without a time or
+/// length to relax over it is Coulomb's.
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step);
 
 std::string describe(const FrictionChoice& choice);

@@ -2,6 +2,7 @@
 
 #include "slipscale/base/vector2.hpp"
 #include "slipscale/dynamics/scheme.hpp"
+#include "slipscale/solid/lanes.hpp"
 
 namespace slipscale {
 
@@ -27,53 +28,64 @@ struct BulkPhysics {
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
-/// Free motion of one node over one step: predictor, acceleration from the internal force and the damping,
-/// velocity, displacement. Called for every owned node as soon as its internal force is complete.
+/// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping, velocity,
+/// displacement. Called for every run of owned nodes as soon as their internal force is complete.
 template <BulkPhysics physics>
 class FreeMotion {
  public:
   FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping, const Vector2& gravity,
              BulkSums& sums)
-      : arrays_(arrays), step_(step), gravity_(gravity), lag_(damping.stiffness / step.time_step),
+      : arrays_(arrays), step_(step), gravity_(load(gravity)), lag_(damping.stiffness / step.time_step),
         mass_damping_(damping.mass), sums_(sums) {}
 
-  void operator()(int i) const {
-    for (int axis = 0; axis < 2; ++axis) {
-      double& u = arrays_.displacement[i][axis];
-      double& v = arrays_.velocity[i][axis];
-      double& a = arrays_.acceleration[i][axis];
-      const double internal = arrays_.force[i][axis];
-      const double w = v + step_.predictor * a;
-      double resistance = internal;
-      if constexpr (physics.stiffness_damping) resistance += lag_ * (internal - arrays_.previous_force[i][axis]);
-      if constexpr (physics.mass_damping) resistance += mass_damping_ / arrays_.inverse_mass[i] * w;
-      const double new_a = gravity_[axis] - resistance * arrays_.inverse_mass[i];
-      const double new_v = w + step_.velocity * new_a;
+  void operator()(int begin, int end) const {
+    // Local copies: the compiler cannot know that no store below changes the members.
+    const BulkArrays arrays = arrays_;
+    const StepCoefficients step = step_;
+    const Lanes gravity = gravity_;
+    const double lag = lag_, mass_damping = mass_damping_;
+    // u_n − u_{n−1} = Δt v_{n−1} + ½Δt² a_{n−1} holds for every β2.
+    const double half = 0.5 * step.time_step * step.time_step;
+    Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
+    for (int i = begin; i < end; ++i) {
+      const Lanes u = load(arrays.displacement[i]), v = load(arrays.velocity[i]), a = load(arrays.acceleration[i]);
+      const Lanes internal = load(arrays.force[i]);
+      const double inverse_mass = arrays.inverse_mass[i];
+      const Lanes w = v + step.predictor * a;
+      Lanes resistance = internal;
+      if constexpr (physics.stiffness_damping) resistance += lag * (internal - load(arrays.previous_force[i]));
+      if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
+      const Lanes new_a = gravity - resistance * inverse_mass;
+      const Lanes new_v = w + step.velocity * new_a;
       if constexpr (physics.keeps_force()) {
-        // u_n − u_{n−1} = Δt v_{n−1} + ½Δt² a_{n−1} holds for every β2.
-        const double half = 0.5 * step_.time_step * step_.time_step;
-        const double past = step_.time_step * v + half * a;
-        const double next = step_.time_step * new_v + half * new_a;
-        const double change = new_a - a;
+        const Lanes past = step.time_step * v + half * a;
+        const Lanes next = step.time_step * new_v + half * new_a;
+        const Lanes change = new_a - a;
         if constexpr (physics.numerical_dissipation) {
-          sums_.increment_force += past * (internal - arrays_.previous_force[i][axis]);
-          sums_.increment_inertia += change * change / arrays_.inverse_mass[i];
+          increment_force += past * (internal - load(arrays.previous_force[i]));
+          increment_inertia += change * change / inverse_mass;
         }
         if constexpr (physics.stiffness_damping || physics.mass_damping) {
-          sums_.damping_past += (internal - resistance) * past;
-          sums_.damping_next += (internal - resistance) * next;
+          damping_past += (internal - resistance) * past;
+          damping_next += (internal - resistance) * next;
         }
       }
-      u += step_.time_step * w + step_.displacement * new_a;
-      v = new_v;
-      a = new_a;
+      store(arrays.displacement[i], u + (step.time_step * w + step.displacement * new_a));
+      store(arrays.velocity[i], new_v);
+      store(arrays.acceleration[i], new_a);
+    }
+    if constexpr (physics.keeps_force()) {
+      sums_.increment_force += increment_force[0] + increment_force[1];
+      sums_.increment_inertia += increment_inertia[0] + increment_inertia[1];
+      sums_.damping_past += damping_past[0] + damping_past[1];
+      sums_.damping_next += damping_next[0] + damping_next[1];
     }
   }
 
  private:
   const BulkArrays arrays_;
   const StepCoefficients step_;
-  const Vector2 gravity_;
+  const Lanes gravity_;
   const double lag_, mass_damping_;
   BulkSums& sums_;
 };

@@ -73,6 +73,7 @@ class SlidingBody {
   std::unique_ptr<Supports> supports_;  ///< made once the initial displacement is known
   ContactNodes contact_;
   FrictionLaw law_;
+  FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
   FreeMotionStep free_motion_;
   BulkSums bulk_;

@@ -50,6 +50,7 @@ class FieldsFile {
   };
   std::string path() const;
   XdmfLayout layout() const;
+  void reserve(double bytes);
   void write_mesh(const Mesh& mesh);
   void write_nodal(const Description& about, const double* values);
   void write_stress(const Description& about, const double* stress);

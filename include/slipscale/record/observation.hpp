@@ -10,21 +10,22 @@ namespace slipscale {
 
 /// Load that a boundary carries, N per metre of depth.
 struct BoundaryLoad {
-  double normal = 0;      ///< > 0 in compression
-  double tangential = 0;  ///< of the body on its support, > 0 along +x (along +y where the boundary is vertical)
+  double normal = 0;  ///< > 0 in compression
+  double tangential =
+      0;  ///< of the body on its support, > 0 along +x (along +y where the boundary is vertical)
 };
 
 /// One contact node at t_n.
 struct ContactReading {
-  Vector2 u{};         ///< m
-  double velocity = 0;  ///< v_x, m/s
-  double traction = 0;  ///< tangential, on the body along +x, Pa
+  Vector2 u{};              ///< m
+  double velocity = 0;      ///< v_x, m/s
+  double traction = 0;      ///< tangential, on the body along +x, Pa
   double normal_force = 0;  ///< λ, N/m
   ContactStatus status = ContactStatus::open;
 };
 
-/// What is measured at t_n; on rank 0, the same bits on any number of ranks but for the energies, which are sums over
-/// the bulk and are known on every rank.
+/// What is measured at t_n; on rank 0, the same bits on any number of ranks but for the energies, which are
+/// sums over the bulk and are known on every rank.
 struct Observation {
   double time = 0;  ///< s
   long step = 0;
@@ -35,7 +36,7 @@ struct Observation {
   double power_into_body = 0;            ///< Σ τA v_x, W/m
   double friction_heat = 0;              ///< Σ τA (V − v_x), W/m
   double stick = 0, slip = 0, open = 0;  ///< fractions of the contact boundary's length
-  double friction = 0;                   ///< tangential over normal load at the measured boundary; NaN without load
+  double friction = 0;  ///< tangential over normal load at the measured boundary; NaN without load
   Energy energy;
 };
 
@@ -47,7 +48,7 @@ class Observer {
   /// State at t_n of an observed step. Collective.
   Observation observe() const;
 
-  const std::vector<double>& contact_x() const { return contact_x_; }            ///< rank 0, ascending, m
+  const std::vector<double>& contact_x() const { return contact_x_; }              ///< rank 0, ascending, m
   const std::vector<double>& tributary_length() const { return contact_length_; }  ///< rank 0, m
   int measured() const { return measured_; }  ///< index of the measured boundary; −1 without one
 

@@ -9,8 +9,8 @@ namespace slipscale {
 
 /// State at one point of the body, on rank 0.
 struct ProbeReading {
-  Vector2 u{}, v{};                 ///< m, m/s
-  std::array<double, 3> stress{};   ///< (xx, yy, xy), Pa
+  Vector2 u{}, v{};                ///< m, m/s
+  std::array<double, 3> stress{};  ///< (xx, yy, xy), Pa
 };
 
 /// Points at which the state is followed. A point within 1e-6 of the block's size of a node is that node (its

@@ -32,13 +32,14 @@ RecordChoice read_record(const Options& options);
 /// Keeps what the user asked for: it says which steps are to be observed, and writes them.
 class Recorder {
  public:
-  /// Creates the folder's files. Throws UserError for a folder that cannot be written to. Collective.
+  /// Creates the folder's files. Throws UserError for a point outside the body, for a time outside the run, both
+  /// before the folder is touched, and for a folder that cannot be written to. Collective.
   Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time);
 
   /// Whether step n is to be observed.
   bool due(long n) const { return n % history_every_ == 0 || n == last_ || contact_due(n) || fields_due(n); }
-  /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the state is no
-  /// longer finite, when energy appears from nowhere, or when the disk is full. Collective.
+  /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the
+  /// state is no longer finite, when energy appears from nowhere, or when the disk is full. Collective.
   void after_step(long n);
 
   /// Predicted steps, time, memory and output, for the user to see before the first step. Collective.
@@ -63,10 +64,10 @@ class Recorder {
   const long last_, history_every_;
   const bool has_contact_;
   const long contact_every_;
-  std::vector<long> field_steps_;  ///< ascending
-  OutputFolder folder_;
+  const std::vector<long> field_steps_;  ///< ascending
   Observer observer_;
   Probes probes_;
+  OutputFolder folder_;                   ///< below all that may refuse the scene: an older run is kept then
   std::unique_ptr<HistoryFile> history_;  ///< on rank 0
   std::unique_ptr<ContactFile> contact_;  ///< on rank 0
   std::unique_ptr<FieldsFile> fields_;

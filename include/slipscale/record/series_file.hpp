@@ -20,7 +20,8 @@ class SeriesFile {
  public:
   enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
 
-  /// Creates the file, over an older one. A batch is written when `seconds` have passed since the last.
+  /// Creates the file, over an older one. The first row is written at once, then a
+  /// batch when `seconds` have passed since the last, or more where writing is slow.
   explicit SeriesFile(std::string path, double seconds = 0.5);
   ~SeriesFile();
   SeriesFile(SeriesFile&&) = default;
@@ -66,6 +67,7 @@ class SeriesFile {
   template <class Action>
   void guarded(const char* what, Action action);
   void append_bytes(int id, const void* row, Storage storage);
+  void reserve();
   void write_batch(Column& column);
 
   std::string path_, fault_;

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "scenes.hpp"
+#include "slipscale/solid/element.hpp"
+
+using namespace slipscale;
+using namespace slipscale::testing_support;
+
+namespace {
+
+struct Case {
+  std::string name;
+  Block block;
+};
+
+std::vector<Case> cases() {
+  Block block;
+  block.nx = 7;
+  block.ny = 6;
+  block.width = 1.3;
+  block.distortion = 0.2;
+  std::vector<Case> list;
+  for (const Shape shape : {Shape::triangles, Shape::quadrilaterals, Shape::mixed}) {
+    block.shape = shape;
+    for (const bool periodic : {false, true}) {
+      block.periodic_x = periodic;
+      for (const bool two : {false, true}) {
+        block.region = [two](double x, double y) { return two && x < 0.6 && y > 0.4 ? 2 : 1; };
+        list.push_back({std::string(shape == Shape::triangles ? "P1"
+                                    : shape == Shape::mixed   ? "mixed"
+                                                              : "Q1") +
+                            (periodic ? " periodic" : "") + (two ? " two regions" : ""),
+                        block});
+      }
+    }
+  }
+  return list;
+}
+
+std::vector<Material> materials_of(const Mesh& mesh) {
+  std::vector<Material> materials;
+  for (const Region& region : mesh.regions)
+    materials.push_back(region.name == "inclusion" ? isotropic(80e9, 0.2, 2500) : isotropic(30e9, 0.3, 1800));
+  return materials;
+}
+
+/// √ of the largest eigenvalue of M⁻¹K, dense; the mesh is whole on this rank.
+double dense_frequency(const Mesh& mesh, const std::vector<Material>& materials) {
+  const int n = mesh.nodes.size();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(2 * n);
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
+    const std::span<const Vector2> corners{mesh.cells.corners.data() + first,
+                                           static_cast<std::size_t>(count)};
+    const Material& material = materials[mesh.cells.region[cell]];
+    const ElementStiffness element = element_stiffness(corners, material.stiffness);
+    const auto areas = corner_areas(corners);
+    const auto dof = [&](int q) { return 2 * mesh.cells.corner_nodes[first + q / 2] + q % 2; };
+    for (int p = 0; p < 2 * count; ++p) {
+      mass[dof(p)] += material.density * areas[p / 2];
+      for (int q = 0; q < 2 * count; ++q) k(dof(p), dof(q)) += element(p, q);
+    }
+  }
+  const Eigen::VectorXd scale = mass.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+                       .eigenvalues()
+                       .maxCoeff());
+}
+
+}  // namespace
+
+/// Science, section 2: the sharp value is a bound from above that is hardly larger than ω_max (Lanczos stops
+/// at a residual of 1e-4 of ω², which is added, and the result is rounded up to 4 digits: at most 5e-5 +
+/// 1e-3); the element bound lies above. Neither depends on the number of ranks.
+TEST(LargestFrequency, AgreesWithDenseEigenvaluesOnAnyNumberOfRanks) {
+  for (const Case& c : cases()) {
+    const std::string path = scratch("frequency.msh");
+    write_block(c.block, path);
+    const Mesh whole = read_mesh(PETSC_COMM_SELF, {path});
+    const Model serial(whole, materials_of(whole), Model::Storage::full);
+    const FrequencyBounds alone = largest_frequency(PETSC_COMM_SELF, serial);
+    const double exact = dense_frequency(whole, serial.materials);
+    EXPECT_GE(alone.sharp, exact * (1 - 1e-12)) << c.name;
+    EXPECT_LE(alone.sharp, exact * (1 + 1.1e-3)) << c.name;
+    EXPECT_GE(alone.safe, exact) << c.name;
+
+    for (const Partitioner partitioner : {Partitioner::metis, Partitioner::simple}) {
+      const Mesh mesh = read_mesh(PETSC_COMM_WORLD, {path, partitioner});
+      const Model model(mesh, materials_of(mesh), Model::Storage::full);
+      const FrequencyBounds together = largest_frequency(PETSC_COMM_WORLD, model);
+      EXPECT_EQ(together.sharp, alone.sharp) << c.name;
+      EXPECT_EQ(together.safe, alone.safe) << c.name;
+    }
+  }
+}
+
+/// A Q1 square with one element across has the frequencies of its element: the space is exhausted at once.
+TEST(LargestFrequency, OfASingleElementIsThatOfTheElement) {
+  Block block;
+  block.nx = block.ny = 1;
+  block.shape = Shape::quadrilaterals;
+  const std::string path = scratch("single.msh");
+  write_block(block, path);
+  const Mesh mesh = read_mesh(PETSC_COMM_SELF, {path});
+  const Model model(mesh, {isotropic(1, 0.3, 1)}, Model::Storage::full);
+  const FrequencyBounds found = largest_frequency(PETSC_COMM_SELF, model);
+  EXPECT_NEAR(found.safe, dense_frequency(mesh, model.materials), 1e-10);
+  EXPECT_NEAR(found.sharp / found.safe, 1, 1.1e-3);
+}

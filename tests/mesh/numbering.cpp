@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "whole.hpp"
+
+using namespace slipscale;
+using namespace slipscale::testing_support;
+
+/// The whole mesh read by one rank alone has the same nodes under the same numbers, and so have the ghosts.
+TEST(Numbering, DoesNotDependOnRanksOrPartitioner) {
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c), whole = whole_mesh_of(c);
+    ASSERT_EQ(mesh.nodes.total, whole.nodes.total);
+    ASSERT_EQ(mesh.cells.total, whole.cells.total);
+    for (int i = 0; i < mesh.nodes.size(); ++i)
+      EXPECT_EQ(mesh.nodes.position[i], whole.nodes.position[mesh.nodes.number[i]]);
+    for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+      const int same = static_cast<int>(mesh.cells.number[cell]);
+      ASSERT_EQ(mesh.cells.corner_count(cell), whole.cells.corner_count(same));
+      EXPECT_EQ(mesh.cells.region[cell], whole.cells.region[same]);
+      for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
+        const int here = mesh.cells.first[cell] + k, there = whole.cells.first[same] + k;
+        EXPECT_EQ(mesh.nodes.number[mesh.cells.corner_nodes[here]], whole.cells.corner_nodes[there]);
+        EXPECT_EQ(mesh.cells.corners[here], whole.cells.corners[there]);
+      }
+    }
+  }
+}
+
+TEST(Numbering, EveryNodeAndCellHasOneOwner) {
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c);
+    std::vector<PetscInt> owners(static_cast<std::size_t>(mesh.nodes.total + mesh.cells.total), 0);
+    for (int i = 0; i < mesh.nodes.owned; ++i) ++owners[mesh.nodes.number[i]];
+    for (int cell = 0; cell < mesh.cells.size(); ++cell)
+      owners[mesh.nodes.total + mesh.cells.number[cell]] += mesh.cells.owned[cell];
+    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+    EXPECT_EQ(std::set<PetscInt>(owners.begin(), owners.end()), std::set<PetscInt>{1});
+  }
+}
+
+TEST(Numbering, LocalNodesAndCellsAscend) {
+  const Mesh mesh = mesh_of({Shape::mixed, true, Partitioner::metis, 1});
+  const auto& number = mesh.nodes.number;
+  EXPECT_TRUE(std::is_sorted(number.begin(), number.begin() + mesh.nodes.owned));
+  EXPECT_TRUE(std::is_sorted(number.begin() + mesh.nodes.owned, number.end()));
+  EXPECT_TRUE(std::is_sorted(mesh.cells.number.begin(), mesh.cells.number.end()));
+  EXPECT_EQ(std::set<PetscInt>(number.begin(), number.end()).size(), number.size());
+}
+
+/// Ghosts are filled from their owners: numbers sent through the halo arrive where they are known already.
+TEST(Numbering, TheHaloBringsEachGhostItsOwner) {
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c);
+    NodalVector x(PETSC_COMM_WORLD, mesh.nodes, true);
+    for (int i = 0; i < mesh.nodes.owned; ++i) x.data()[i] = {1.0 * mesh.nodes.number[i], mesh.nodes.position[i][1]};
+    x.begin_update();
+    x.end_update();
+    for (int i = mesh.nodes.owned; i < mesh.nodes.size(); ++i) {
+      EXPECT_EQ(x.data()[i][0], mesh.nodes.number[i]);
+      EXPECT_EQ(x.data()[i][1], mesh.nodes.position[i][1]);
+    }
+  }
+}
+
+/// One layer of overlap: an owned node has as many local cells around it as in the whole mesh.
+TEST(Numbering, EveryCellAroundAnOwnedNodeIsLocal) {
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c), whole = whole_mesh_of(c);
+    std::vector<int> here(mesh.nodes.number.size(), 0), there(whole.nodes.number.size(), 0);
+    for (int node : mesh.cells.corner_nodes) ++here[node];
+    for (int node : whole.cells.corner_nodes) ++there[node];
+    for (int i = 0; i < mesh.nodes.owned; ++i) EXPECT_EQ(here[i], there[mesh.nodes.number[i]]);
+  }
+}
+
+TEST(Partition, IsRepeatable) {
+  const Case c{Shape::triangles, false, Partitioner::metis, 2};
+  const Mesh once = mesh_of(c), again = mesh_of(c);
+  EXPECT_EQ(once.nodes.number, again.nodes.number);
+  EXPECT_EQ(once.cells.number, again.cells.number);
+  EXPECT_EQ(once.partition.edge_cut, again.partition.edge_cut);
+}
+
+TEST(Partition, ReportsWhatEachRankHolds) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c);
+    const auto& report = mesh.partition;
+    ASSERT_EQ(report.owned_nodes.size(), static_cast<std::size_t>(ranks));
+    EXPECT_EQ(report.owned_nodes[rank], mesh.nodes.owned);
+    EXPECT_EQ(report.ghost_nodes[rank], mesh.nodes.size() - mesh.nodes.owned);
+    EXPECT_EQ(report.owned_cells[rank] + report.overlap_cells[rank], mesh.cells.size());
+    if (ranks == 1) {
+      EXPECT_EQ(report.edge_cut, 0);
+    } else {
+      EXPECT_GT(report.edge_cut, 0);
+    }
+    // No rank holds more than twice its share: 24 cells at least on at most three ranks.
+    for (PetscInt cells : report.owned_cells) EXPECT_LE(cells * ranks, 2 * mesh.cells.total);
+  }
+}

@@ -1,0 +1,88 @@
+"""Runs `slide` as a user does and looks at what it says, returns and writes.
+
+The environment says where the programs are: SLIPSCALE_SLIDE, SLIPSCALE_MPIEXEC.
+"""
+
+import os
+
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # before h5py: a running job holds its files open
+
+import subprocess
+import tempfile
+import unittest
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+
+SLIDE = os.environ["SLIPSCALE_SLIDE"]
+MPIEXEC = os.environ["SLIPSCALE_MPIEXEC"]
+SECONDS = 60  # a run that takes longer hangs
+
+# mpiexec ends all ranks after the first that fails, so each rank leaves its own exit code in a file.
+KEEP_CODE = '"$0" "$@"; echo $? > "$CODES/$OMPI_COMM_WORLD_RANK"'
+
+
+@dataclass
+class Outcome:
+    """What one run left behind: exit codes by rank, and what it said."""
+
+    codes: list
+    out: str
+    err: str
+
+
+class InScratch(unittest.TestCase):
+    """A test with a folder of its own, where it runs `slide`."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def environment(self, **more):
+        """The caller's, without what would change a run behind its back."""
+        kept = {name: value for name, value in os.environ.items() if not name.startswith("PETSC_OPTIONS")}
+        return {**kept, "HOME": str(self.folder), **more}
+
+    def slide(self, *arguments, ranks=1, folder=None):
+        """Runs to the end, in the test's own folder or another. One rank runs without mpiexec, as on a laptop."""
+        arguments = [str(argument) for argument in arguments]
+        folder = folder or self.folder
+        if ranks == 1:
+            return run([SLIDE, *arguments], folder, self.environment())
+        with tempfile.TemporaryDirectory() as codes:
+            command = [MPIEXEC, "-n", str(ranks), "bash", "-c", KEEP_CODE, SLIDE, *arguments]
+            outcome = run(command, folder, self.environment(CODES=codes))
+            outcome.codes = [int((Path(codes) / str(rank)).read_text()) for rank in range(ranks)]
+        return outcome
+
+    def run_scene(self, scene, ranks=1, **changes):
+        """Runs a scene (a dict of options, see `arguments_of`) that must succeed without a word on stderr."""
+        outcome = self.slide(*arguments_of({**scene, **changes}), ranks=ranks)
+        self.assertEqual((outcome.codes, outcome.err), ([0] * ranks, ""), outcome.out)
+        return outcome
+
+
+def run(command, folder, environment):
+    done = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=SECONDS)
+    return Outcome([done.returncode], done.stdout, done.stderr)
+
+
+def arguments_of(scene):
+    """A dict of options as command-line arguments; None leaves an option out."""
+    return [word for name, value in scene.items() if value is not None for word in ("-" + name, str(value))]
+
+
+def yaml_of(scene):
+    """The same as a YAML file of flat keys."""
+    return "".join(f"{name}: {value}\n" for name, value in scene.items() if value is not None)
+
+
+def datasets(path):
+    """All datasets of an HDF5 file by path, as arrays."""
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
