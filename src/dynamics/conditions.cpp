@@ -1,5 +1,7 @@
 #include "slipscale/dynamics/conditions.hpp"
 
+#include <cstdlib>
+
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -10,7 +12,7 @@ const Range component = range::one_of_or_number({"free", "fixed"}, range::any);
 std::optional<double> prescribed(const Options& options, const std::string& name) {
   const std::string text = options.text(name);
   if (text == "free") return std::nullopt;
-  return text == "fixed" ? 0.0 : std::stod(text);
+  return text == "fixed" ? 0.0 : std::strtod(text.c_str(), nullptr);
 }
 
 std::string component_text(const std::optional<double>& displacement) {
@@ -26,7 +28,8 @@ Schema boundary_schema() {
        "free, fixed at its initial value, or the displacement along x that is imposed"},
       {"boundary_<boundary>_y", Kind::text, "m", "free", component, "the same along y"},
       {"boundary_<boundary>_pressure", Kind::real, "Pa", "0", range::any, "pressure on it, > 0 compresses"},
-      {"boundary_<boundary>_shear", Kind::real, "Pa", "0", range::any, "tangential traction on the body along +x"},
+      {"boundary_<boundary>_shear", Kind::real, "Pa", "0", range::any,
+       "tangential traction on the body along +x"},
       {"boundary_<boundary>_ramp", Kind::real, "s", "0", range::non_negative,
        "time in which its displacements and tractions reach their values, 0.5(1-cos(pi t/ramp)), then held"},
   };
@@ -40,8 +43,9 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
     for (const char* key : {"x", "y", "pressure", "shear", "ramp"}) any = any || options.given(prefix + key);
     if (!any) continue;
     if (boundary.interior)
-      throw UserError("-" + prefix + "…: boundary '" + boundary.name +
-                      "' lies inside the body (a periodic seam or an interface), where no condition can act; remove it");
+      throw UserError(
+          "-" + prefix + "…: boundary '" + boundary.name +
+          "' lies inside the body (a periodic seam or an interface), where no condition can act; remove it");
     BoundaryCondition condition{boundary.name, {}, 0, 0, 0};
     condition.displacement = {prescribed(options, prefix + "x"), prescribed(options, prefix + "y")};
     condition.pressure = options.real(prefix + "pressure");
@@ -53,7 +57,8 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
 }
 
 std::string describe(const BoundaryCondition& condition) {
-  std::string text = "x " + component_text(condition.displacement[0]) + ", y " + component_text(condition.displacement[1]);
+  std::string text =
+      "x " + component_text(condition.displacement[0]) + ", y " + component_text(condition.displacement[1]);
   if (condition.pressure != 0) text += ", pressure " + engineering(condition.pressure, "Pa");
   if (condition.shear != 0) text += ", shear " + engineering(condition.shear, "Pa");
   if (condition.ramp != 0) text += ", ramp " + engineering(condition.ramp, "s");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "slipscale/base/print.hpp"
 
@@ -21,26 +22,42 @@ const Boundary& known_boundary(const Mesh& mesh, const std::string& name, const 
   const Boundary* boundary = mesh.find_boundary(name);
   if (!boundary)
     throw UserError("-" + std::string(option) + ": the mesh has no boundary '" + name + "'; it has " +
-                    (mesh.boundaries.empty() ? "none, add Physical Curve(…) to its geometry" : list(mesh.boundary_names())));
+                    (mesh.boundaries.empty() ? "none, add Physical Curve(…) to its geometry"
+                                             : list(mesh.boundary_names())));
   if (boundary->interior)
     throw UserError("-" + std::string(option) + ": boundary '" + name +
                     "' lies inside the body (a periodic seam or an interface); choose an outer one");
   return *boundary;
 }
 
+/// A node whose y is prescribed is never a contact node.
+void refuse_held_contact(const std::vector<BoundaryCondition>& conditions, const std::string& boundary) {
+  for (const BoundaryCondition& condition : conditions)
+    if (condition.boundary == boundary && condition.displacement[1])
+      throw UserError("-boundary_" + boundary +
+                      "_y prescribes the motion of the boundary that -surface_boundary names, " +
+                      "so that none of it could meet the surface; make it free, or name another boundary");
+}
+
 }  // namespace
 
 Schema scene_schema() {
   const Schema own{
-      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::any, "acceleration of every part of the body, ax,ay (gravity)"},
-      {"damping_mass", Kind::real, "1/s", "0", range::non_negative, "Rayleigh damping proportional to mass, a"},
+      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::any,
+       "acceleration of every part of the body, ax,ay (gravity)"},
+      {"damping_mass", Kind::real, "1/s", "0", range::non_negative,
+       "Rayleigh damping proportional to mass, a"},
       {"damping_stiffness", Kind::real, "s", "0", range::non_negative,
        "Rayleigh damping proportional to stiffness, b, lagged by one step"},
       {"time_step", Kind::text, "s", "auto", range::one_of_or_number({"auto"}, range::positive),
        "auto: safety times the stable step; or seconds, refused above the stable step"},
       {"time_safety", Kind::real, "1", "0.9", range::unit, "part of the stable step that auto takes"},
       {"time_end", Kind::real, "s", required, range::positive, "simulated time at the end of the run"},
-      {"time_beta2", Kind::real, "1", "0.5", {"in [0.5, 1]", [](double x) { return x >= 0.5 && x <= 1; }},
+      {"time_beta2",
+       Kind::real,
+       "1",
+       "0.5",
+       {"in [0.5, 1]", [](double x) { return x >= 0.5 && x <= 1; }},
        "beta2 of the scheme: 0.5 is central difference, more dissipates at high frequency"},
       {"history_boundary", Kind::text, "", absent, range::any,
        "boundary where the load and the global friction are measured; `top` when the mesh has one"},
@@ -61,7 +78,10 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
   scene.beta2 = options.real("time_beta2");
   if (has_surface(options)) {
     scene.surface = read_surface(options);
-    known_boundary(mesh, scene.surface->boundary, "surface_boundary");
+    if (!(known_boundary(mesh, scene.surface->boundary, "surface_boundary").normal[1] < 0))
+      throw UserError("-surface_boundary: boundary '" + scene.surface->boundary +
+                      "' does not face down, where the rigid surface is; name the lower side of the body");
+    refuse_held_contact(scene.conditions, scene.surface->boundary);
     scene.friction = read_friction(options, *scene.surface);
   } else {
     for (const char* option : {"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
@@ -81,7 +101,7 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
 TimeChoice read_time(const Options& options) {
   TimeChoice time;
   const std::string step = options.text("time_step");
-  if (step != "auto") time.step = std::stod(step);
+  if (step != "auto") time.step = std::strtod(step.c_str(), nullptr);
   time.safety = options.real("time_safety");
   time.end = options.real("time_end");
   return time;
@@ -98,13 +118,14 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   choice.safe_limit = stable_step(choice.frequency.safe, scene.beta2, scene.damping);
   choice.step = time.step ? *time.step : time.safety * choice.limit;
   if (choice.step > choice.limit)
-    throw UserError(format("-time_step is %.6g s, above the stable step of %.6g s for this mesh, beta2 and damping; "
-                           "use at most %.4g or auto",
-                           choice.step, choice.limit, 0.99 * choice.limit));
+    throw UserError(
+        format("-time_step is %.6g s, above the stable step of %.6g s for this mesh, beta2 and damping; "
+               "use at most %.4g or auto",
+               choice.step, choice.limit, 0.99 * choice.limit));
   const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
   if (!(count <= most_steps))
-    throw UserError(format("-time_end is %g s, which takes %g steps of %g s; a run has at most %g steps", time.end, count,
-                           choice.step, most_steps));
+    throw UserError(format("-time_end is %g s, which takes %g steps of %g s; a run has at most %g steps",
+                           time.end, count, choice.step, most_steps));
   choice.count = static_cast<long>(count);
   return choice;
 }
@@ -112,17 +133,18 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
 std::string describe(const TimeStep& step, const Model& model) {
   const Mesh& mesh = model.mesh;
   const Vector2 size{mesh.upper[0] - mesh.lower[0], mesh.upper[1] - mesh.lower[1]};
-  std::string text = "block " + engineering(size[0], "m") + " x " + engineering(size[1], "m") + ", shortest edge " +
-                     engineering(mesh.shortest_edge, "m") + "\n";
+  std::string text = "block " + engineering(size[0], "m") + " x " + engineering(size[1], "m") +
+                     ", shortest edge " + engineering(mesh.shortest_edge, "m") + "\n";
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
     const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
     text += format("  waves along y in %s: %.5g and %.5g m/s, crossing the height in %s\n",
                    mesh.regions[r].name.c_str(), speeds.fast, speeds.slow,
                    engineering(size[1] / speeds.fast, "s").c_str());
   }
-  text += format("largest frequency: %.4g 1/s (Lanczos), at most %.4g 1/s (largest element)\n", step.frequency.sharp,
-                 step.frequency.safe);
-  text += "stable step: " + engineering(step.limit, "s") + " (Lanczos), " + engineering(step.safe_limit, "s") +
+  text += format("largest frequency: %.4g 1/s (Lanczos), at most %.4g 1/s (largest element)\n",
+                 step.frequency.sharp, step.frequency.safe);
+  text += "stable step: " + engineering(step.limit, "s") + " (Lanczos), " +
+          engineering(step.safe_limit, "s") +
           " (largest element); step used: " + engineering(step.step, "s") +
           format(" (%.3f of the limit), %ld steps\n", step.step / step.limit, step.count);
   return text;

@@ -1,5 +1,6 @@
 #include "gmsh_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -129,31 +130,52 @@ long corners_of(long type) {
   }
 }
 
+using Edge = std::pair<long, long>;
+
+Edge edge_between(long a, long b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Curves that are saved must run along the cells.
+void check_lines(std::vector<Edge>& lines, std::vector<Edge>& sides) {
+  std::sort(lines.begin(), lines.end());
+  std::sort(sides.begin(), sides.end());
+  if (!std::includes(sides.begin(), sides.end(), lines.begin(), std::unique(lines.begin(), lines.end())))
+    throw Fault(
+        "has a curve or point that belongs to no cell; save only the physical groups that bound a meshed "
+        "surface");
+}
+
 void elements(Numbers numbers, const Entities& entities, const std::vector<char>& nodes) {
   const long blocks = numbers.count(), count = numbers.count();
   numbers.next(), numbers.next();
-  long seen = 0, cells = 0;
+  long seen = 0;
+  std::vector<Edge> lines, sides;  // a point is a line from a node to itself
   for (long block = 0; block < blocks; ++block) {
     const long dimension = numbers.next(), entity = numbers.next(), corners = corners_of(numbers.next());
     if (dimension < 0 || dimension > 3 || !entities[dimension].count(entity))
-      throw Fault("is damaged: its elements name an entity that $Entities does not list; " +
-                  std::string(write_again));
+      throw Fault(std::string("is damaged: its elements name an entity that $Entities does not list; ") +
+                  write_again);
     const long size = numbers.count();
     for (long k = 0; k < size; ++k) {
       numbers.next();
+      std::array<long, 4> corner{};
       for (long c = 0; c < corners; ++c) {
-        const long node = numbers.next();
+        const long node = corner[c] = numbers.next();
         if (node < 0 || node >= static_cast<long>(nodes.size()) || !nodes[node])
           throw Fault("is damaged: an element names node " + std::to_string(node) +
                       ", which $Nodes does not list; " + write_again);
       }
+      if (corners <= 2) lines.push_back(edge_between(corner[0], corner[corners - 1]));
+      for (long c = 0; corners > 2 && c < corners; ++c) {
+        sides.push_back(edge_between(corner[c], corner[(c + 1) % corners]));
+        sides.push_back({corner[c], corner[c]});
+      }
     }
     seen += size;
-    if (corners > 2) cells += size;
   }
   if (seen != count)
     throw Fault(std::string("is damaged: $Elements holds fewer entries than it announces; ") + write_again);
-  if (cells == 0) throw Fault("has no cells, only points or lines; mesh its surfaces (gmsh -2)");
+  if (sides.empty()) throw Fault("has no cells, only points or lines; mesh its surfaces (gmsh -2)");
+  check_lines(lines, sides);
 }
 
 void periodic(Numbers numbers, const std::vector<char>& nodes) {

@@ -31,8 +31,8 @@ OwnedDM create_dm(MPI_Comm comm, const MeshSource& source, bool interpolate, std
   return dm;
 }
 
-/// PETSc parses the file on rank 0 and would leave the other ranks waiting when it fails there; so a file that was
-/// not looked through number by number is first read by rank 0 alone.
+/// PETSc parses the file on rank 0 and would leave the other ranks waiting when it fails there; so a file
+/// that was not looked through number by number is first read by rank 0 alone.
 OwnedDM create_dm(MPI_Comm comm, const MeshSource& source, const GmshFile& file) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
@@ -55,44 +55,46 @@ void refine(MPI_Comm comm, int times, OwnedDM& dm) {
   }
 }
 
-/// On a torus PETSc puts a new vertex half-way between the homes of its ends, which for an edge across the seam is on
-/// the other side of the body. Gives such a vertex the place it has as a corner of the first cell around it. Rank 0.
-void bring_home(DM dm) {
-  PetscInt begin = 0, end = 0, node_begin = 0, node_end = 0;
-  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
-  petsc(DMPlexGetDepthStratum(dm, 0, &node_begin, &node_end));
-  std::vector<Vector2> first(static_cast<std::size_t>(node_end - node_begin));
-  std::vector<char> state(first.size(), 0);  // 0 not seen, 1 away from home, 2 at home
-  for (PetscInt cell = begin; cell < end; ++cell) {
-    const auto geometry = cell_geometry(dm, cell);
-    for (std::size_t k = 0; k < geometry.vertices.size(); ++k) {
-      const Vector2 &corner = geometry.corners[k], home = vertex_position(dm, geometry.vertices[k]);
-      const auto node = static_cast<std::size_t>(geometry.vertices[k] - node_begin);
-      if (state[node] == 0) first[node] = corner;
-      const double size = std::sqrt(std::abs(geometry.area()));
-      const bool at_home = std::hypot(corner[0] - home[0], corner[1] - home[1]) < 1e-6 * size;
-      state[node] = at_home ? 2 : std::max<char>(state[node], 1);
-    }
-  }
-  Vec coordinates = nullptr;
-  PetscSection section = nullptr;
-  petsc(DMGetCoordinatesLocal(dm, &coordinates));
-  petsc(DMGetCoordinateSection(dm, &section));
-  PetscScalar* values = nullptr;
-  petsc(VecGetArray(coordinates, &values));
-  for (std::size_t node = 0; node < state.size(); ++node) {
-    if (state[node] != 1) continue;
-    PetscInt offset = 0;
-    petsc(PetscSectionGetOffset(section, node_begin + static_cast<PetscInt>(node), &offset));
-    values[offset] = first[node][0];
-    values[offset + 1] = first[node][1];
-  }
-  petsc(VecRestoreArray(coordinates, &values));
-}
-
 std::string too_narrow(const MeshSource& source, const Vector2& place) {
   return "mesh '" + source.file + "' has fewer than three cells across a period near " + at(place) +
          "; mesh it finer";
+}
+
+bool is_localized(DM dm) {
+  PetscBool localized = PETSC_FALSE;
+  petsc(DMGetCoordinatesLocalized(dm, &localized));
+  return localized;
+}
+
+/// Gives every vertex the lowest of the positions at which its cells see it, x first. Elsewhere than on a torus that is
+/// its position already; on one, PETSc's choice varies along the seam and refinement leaves midpoints there off it.
+void set_positions(DM dm) {
+  PetscInt begin = 0, end = 0;
+  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
+  std::map<PetscInt, Vector2> lowest;
+  for (PetscInt cell = begin; cell < end; ++cell) {
+    const auto geometry = cell_geometry(dm, cell);
+    for (std::size_t k = 0; k < geometry.vertices.size() && k < geometry.corners.size(); ++k) {
+      const auto [known, is_new] = lowest.try_emplace(geometry.vertices[k], geometry.corners[k]);
+      if (!is_new) known->second = std::min(known->second, geometry.corners[k]);
+    }
+  }
+  Vec old = nullptr;
+  OwnedVec moved;
+  PetscSection section = nullptr;
+  petsc(DMGetCoordinatesLocal(dm, &old));
+  petsc(DMGetCoordinateSection(dm, &section));
+  petsc(VecDuplicate(old, moved.put()));
+  petsc(VecCopy(old, moved));
+  PetscScalar* values = nullptr;
+  petsc(VecGetArray(moved, &values));
+  for (const auto& [vertex, position] : lowest) {
+    PetscInt offset = 0;
+    petsc(PetscSectionGetOffset(section, vertex, &offset));
+    std::copy(position.begin(), position.end(), values + offset);
+  }
+  petsc(VecRestoreArray(moved, &values));
+  petsc(DMSetCoordinatesLocal(dm, moved));
 }
 
 /// Fewer than three cells across a period make two edges with the same ends, which a DMPlex merges.
@@ -109,13 +111,15 @@ std::string fault_in_torus(DM dm, const MeshSource& source) {
     for (std::size_t a = 0; a < geometry.vertices.size(); ++a)
       for (std::size_t b = a + 1; b < geometry.vertices.size(); ++b) {
         auto va = geometry.vertices[a], vb = geometry.vertices[b];
-        Vector2 d{geometry.corners[b][0] - geometry.corners[a][0], geometry.corners[b][1] - geometry.corners[a][1]};
+        Vector2 d{geometry.corners[b][0] - geometry.corners[a][0],
+                  geometry.corners[b][1] - geometry.corners[a][1]};
         if (va > vb) {
           std::swap(va, vb);
           d = {-d[0], -d[1]};
         }
         const auto [known, is_new] = link.try_emplace({va, vb}, d);
-        if (va == vb || (!is_new && std::hypot(known->second[0] - d[0], known->second[1] - d[1]) > 0.5 * size))
+        if (va == vb ||
+            (!is_new && std::hypot(known->second[0] - d[0], known->second[1] - d[1]) > 0.5 * size))
           return too_narrow(source, geometry.corners[a]);
       }
   }
@@ -163,7 +167,8 @@ struct Survey {
     std::vector<char> seen(static_cast<std::size_t>(node_end - node_begin), 0);
     for (PetscInt cell = begin; cell < end && fault.empty(); ++cell) check(cell, begin, node_begin, seen);
     if (fault.empty() && std::find(seen.begin(), seen.end(), 0) != seen.end())
-      fault = "mesh '" + source.file + "' has nodes that belong to no cell; save only the physical groups that are meshed";
+      fault = "mesh '" + source.file +
+              "' has nodes that belong to no cell; save only the physical groups that are meshed";
     whole.cell_count = end - begin;
     whole.node_count = node_end - node_begin;
   }
@@ -172,7 +177,8 @@ struct Survey {
     const auto geometry = cell_geometry(whole.dm, cell);
     const std::size_t n = geometry.vertices.size();
     if ((n != 3 && n != 4) || geometry.corners.size() != n) {
-      fault = "mesh '" + source.file + "' has cells that are not three- or four-cornered and straight; use gmsh -order 1";
+      fault = "mesh '" + source.file +
+              "' has cells that are not three- or four-cornered and straight; use gmsh -order 1";
       return;
     }
     double longest = 0;
@@ -198,7 +204,8 @@ struct Survey {
               "; mend the mesh, or reverse the surface's orientation";
     else if (region_of[cell - begin] < 0)
       fault = "mesh '" + source.file + "': the cell at " + at(centre(geometry)) +
-              " belongs to no region; put its surface in a Physical Surface (known: " + names(whole.regions) + ")";
+              " belongs to no region; put its surface in a Physical Surface (known: " + names(whole.regions) +
+              ")";
   }
 
   void boundaries() {
@@ -222,7 +229,8 @@ struct Survey {
         fault = "mesh '" + source.file + "': boundary '" + boundary.name +
                 "' holds no edge; remove this physical curve or mesh it";
       const double size = std::hypot(sum[0], sum[1]);
-      if (!boundary.interior && size > 1e-6 * boundary.length) boundary.normal = {sum[0] / size, sum[1] / size};
+      if (!boundary.interior && size > 1e-6 * boundary.length)
+        boundary.normal = {sum[0] / size, sum[1] / size};
     }
   }
 
@@ -283,7 +291,8 @@ void tell_all(MPI_Comm comm, Whole& whole) {
   };
   exchange([&](auto& value) { numbers.push_back(static_cast<double>(value)); });
   MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, comm);
-  exchange([&](auto& value) { value = static_cast<std::remove_reference_t<decltype(value)>>(numbers[next++]); });
+  exchange(
+      [&](auto& value) { value = static_cast<std::remove_reference_t<decltype(value)>>(numbers[next++]); });
 }
 
 }  // namespace
@@ -304,14 +313,15 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   MPI_Comm_rank(comm, &rank);
   throw_together(comm, rank == 0 ? fault_in_torus(whole.dm, source) : "");
   refine(comm, source.refine, whole.dm);
-  if (rank == 0 && source.refine > 0) bring_home(whole.dm);
+  if (is_localized(whole.dm)) set_positions(whole.dm);
 
   Survey survey{source, whole, {}, {}, {}};
   if (rank == 0) {
     survey.regions();
     if (survey.fault.empty()) survey.cells();
     if (survey.fault.empty()) survey.boundaries();
-    for (int axis = 0; axis < 2; ++axis) whole.periodic[axis] = survey.shifts[axis] > 0.5 * whole.shortest_edge;
+    for (int axis = 0; axis < 2; ++axis)
+      whole.periodic[axis] = survey.shifts[axis] > 0.5 * whole.shortest_edge;
   }
   throw_together(comm, survey.fault);
   tell_all(comm, whole);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "slipscale/base/print.hpp"
 #include "slipscale/solid/mass.hpp"
@@ -20,13 +21,21 @@ bool is_root(MPI_Comm comm) {
 /// it.
 constexpr double largest_sound_residual = 1e-6;
 
+long whole_steps(double steps) {
+  if (steps != std::floor(steps) || steps > 1e15)
+    throw UserError(format("-contact_every is %g, but it must be auto or a whole number of steps", steps));
+  return static_cast<long>(steps);
+}
+
+/// The steps at which frames are due, ascending.
 std::vector<long> steps_of(const std::vector<double>& times, const TimeStep& time) {
   std::vector<long> steps;
   for (const double t : times) {
     const double n = std::round(t / time.step);
     if (!(n >= 0 && n <= static_cast<double>(time.count)))
-      throw UserError(format("-fields_times: %g s lies outside the run, which ends at %g s; give times from 0 to its end", t,
-                             static_cast<double>(time.count) * time.step));
+      throw UserError(
+          format("-fields_times: %g s lies outside the run, which goes from 0 to %g s; move the frame", t,
+                 static_cast<double>(time.count) * time.step));
     steps.push_back(static_cast<long>(n));
   }
   std::sort(steps.begin(), steps.end());
@@ -66,7 +75,7 @@ RecordChoice read_record(const Options& options) {
     throw UserError("-history_points has an odd count of numbers; give x1,y1,x2,y2,... in m");
   for (std::size_t k = 0; k < points.size(); k += 2) choice.points.push_back({points[k], points[k + 1]});
   const std::string contact = options.text("contact_every");
-  if (contact != "auto") choice.contact_every = std::lround(std::stod(contact));
+  if (contact != "auto") choice.contact_every = whole_steps(std::strtod(contact.c_str(), nullptr));
   if (const auto every = options.find_integer("fields_every"))
     choice.fields_every = static_cast<long>(*every);
   choice.fields_times = options.reals("fields_times");

@@ -68,27 +68,20 @@ void Recorder::write_run(const Options& options) const {
   int ranks = 1;
   MPI_Comm_size(body_.comm(), &ranks);
   const Model& model = body_.model();
-  std::vector<RunFact> facts{
-      {"program", "slide", ""},
-      {"version", version, ""},
-      {"ranks", std::to_string(ranks), ""},
-      {"mesh_checksum", "'" + hexadecimal(model.mesh.checksum) + "'", "FNV-1a of the mesh file"},
-      {"nodes", std::to_string(model.mesh.nodes.total), ""},
-      {"cells", std::to_string(model.mesh.cells.total), ""},
-      {"block",
-       format("[%g, %g]", model.mesh.upper[0] - model.mesh.lower[0],
-              model.mesh.upper[1] - model.mesh.lower[1]),
-       "m, width and height"},
-      {"largest_frequency", format("%.6g", time_.frequency.sharp), "1/s, Lanczos"},
-      {"largest_frequency_bound", format("%.6g", time_.frequency.safe), "1/s, largest element"},
-      {"stable_step", format("%.17g", time_.limit), "s"},
-      {"step", format("%.17g", time_.step), "s"},
-      {"steps", std::to_string(time_.count), ""}};
-  for (std::size_t r = 0; r < model.materials.size(); ++r) {
-    const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
-    facts.push_back({"wave_speeds_" + model.mesh.regions[r].name,
-                     format("[%.6g, %.6g]", speeds.fast, speeds.slow), "m/s along y"});
-  }
+  const auto facts = [&](Yaml& yaml) {
+    const Mesh& mesh = model.mesh;
+    yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
+    yaml.text("mesh_checksum", "fnv1a:" + hexadecimal(mesh.checksum), "of the mesh file");
+    yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
+    yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m").number("block_height", mesh.upper[1] - mesh.lower[1], "m");
+    yaml.number("largest_frequency", time_.frequency.sharp, "1/s, Lanczos");
+    yaml.number("largest_frequency_bound", time_.frequency.safe, "1/s, largest element");
+    yaml.exact("stable_step", time_.limit, "s").exact("step", time_.step, "s").integer("steps", time_.count);
+    for (std::size_t r = 0; r < model.materials.size(); ++r) {
+      const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
+      yaml.numbers("wave_speeds_" + mesh.regions[r].name, {speeds.fast, speeds.slow}, "m/s along y");
+    }
+  };
   folder_.write_text("run.yaml", run_yaml(options.effective(), facts));
 }
 

@@ -36,13 +36,29 @@ std::string scalar(const std::string& text) {
   return quoted + "\"";
 }
 
-/// YAML 1.1 takes 1e-05 for a text: a number with an exponent needs a point.
+/// YAML 1.1 takes 1e-05 and 30e9 for texts: a number with an exponent needs a point and the exponent a sign.
+std::string yaml_number(const std::string& digits) {
+  const auto exponent = digits.find_first_of("eE");
+  if (exponent == std::string::npos) return digits;
+  std::string mantissa = digits.substr(0, exponent), power = digits.substr(exponent + 1);
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  if (power.find_first_of("+-") != 0) power = "+" + power;
+  return mantissa + "e" + power;
+}
+
 std::string yaml_number(double value, const std::string& digits) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  const auto exponent = digits.find('e');
-  if (exponent == std::string::npos || digits.find('.') != std::string::npos) return digits;
-  return digits.substr(0, exponent) + ".0" + digits.substr(exponent);
+  return yaml_number(digits);
+}
+
+/// An option's value as the user typed it, numbers in YAML's spelling.
+std::string option_value(const std::string& typed) {
+  double value = 0;
+  const char* const end = typed.data() + typed.size();
+  const auto parsed = std::from_chars(typed.data(), end, value);
+  return !typed.empty() && parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value) ? yaml_number(typed)
+                                                                                                : typed;
 }
 
 /// The fewest digits that are read back as the same double.
@@ -103,13 +119,14 @@ Yaml& Yaml::end() {
   return *this;
 }
 
-std::string run_yaml(const std::map<std::string, std::string>& effective, const std::vector<RunFact>& facts) {
+std::string run_yaml(const std::map<std::string, std::string>& effective,
+                     const std::function<void(Yaml& yaml)>& facts) {
   Yaml yaml;
   yaml.remark("every option in effect; run it again with -options_file_yaml <this file>");
-  for (const auto& [name, value] : effective) yaml.text(name, value);
+  for (const auto& [name, value] : effective) yaml.text(name, option_value(value));
   yaml.remark("what the run found; not options");
   yaml.begin("run");
-  for (const auto& fact : facts) yaml.text(fact.key, fact.value, fact.comment);
+  facts(yaml);
   return yaml.end().str();
 }
 

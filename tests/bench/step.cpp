@@ -1,7 +1,8 @@
 // What a time step costs on one core, against PETSc's matrix products with the same stiffness and node order:
 //   tests/bench/bench_step -nodes 4000,24000,145000 -repetitions 31
 //   tests/bench/bench_step -mesh block.msh              (any mesh with curves `bottom` and `top`)
-// The variants take turns within one run, and every figure is a median, so that a busy machine disturbs all alike.
+// The variants take turns within one run, and every figure is a median, so that a busy machine disturbs all
+// alike.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -94,7 +95,8 @@ void measure(const Mesh& mesh, int repetitions) {
     for (int k = 0; k < repetitions; ++k) ratio.push_back(variant.seconds[k] / variants[0].seconds[k]);
     const double least = *std::min_element(variant.seconds.begin(), variant.seconds.end());
     std::printf("  %-24s %7.2f ns per node (least %6.2f)   %5.3f x MATBAIJ\n", variant.name.c_str(),
-                median(variant.seconds) / mesh.nodes.owned * 1e9, least / mesh.nodes.owned * 1e9, median(ratio));
+                median(variant.seconds) / mesh.nodes.owned * 1e9, least / mesh.nodes.owned * 1e9,
+                median(ratio));
   }
   std::fflush(stdout);
 }
@@ -121,7 +123,8 @@ int main(int argc, char** argv) {
   petsc(PetscOptionsGetInt(nullptr, nullptr, "-repetitions", &repetitions, nullptr));
   petsc(PetscOptionsGetString(nullptr, nullptr, "-mesh", path, sizeof(path), &given));
   if (given) measure(read_mesh(PETSC_COMM_SELF, {path}), static_cast<int>(repetitions));
-  for (PetscInt k = 0; !given && k < count; ++k) measure(triangles_with(nodes[k]), static_cast<int>(repetitions));
+  for (PetscInt k = 0; !given && k < count; ++k)
+    measure(triangles_with(nodes[k]), static_cast<int>(repetitions));
   petsc(PetscFinalize());
   return 0;
 }

@@ -29,8 +29,9 @@ struct File {
   std::string more;
 
   std::string text() const {
-    return "$MeshFormat\n" + format + "$EndMeshFormat\n$PhysicalNames\n" + names + "$EndPhysicalNames\n$Entities\n" +
-           entities + "$EndEntities\n$Nodes\n" + nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n" + more;
+    return "$MeshFormat\n" + format + "$EndMeshFormat\n$PhysicalNames\n" + names +
+           "$EndPhysicalNames\n$Entities\n" + entities + "$EndEntities\n$Nodes\n" + nodes +
+           "$EndNodes\n$Elements\n" + elements + "$EndElements\n" + more;
   }
 };
 
@@ -84,7 +85,9 @@ TEST_F(BadMesh, TheUnspoiltFileIsGood) {
   EXPECT_NEAR(read_mesh(PETSC_COMM_WORLD, {written(file.text())}).area(), 1, 1e-14);
 }
 
-TEST_F(BadMesh, Missing) { expect(complaint(std::string("/nowhere/x.msh")), "cannot read '/nowhere/x.msh'", "give the path"); }
+TEST_F(BadMesh, Missing) {
+  expect(complaint(std::string("/nowhere/x.msh")), "cannot read '/nowhere/x.msh'", "give the path");
+}
 
 TEST_F(BadMesh, Folder) { expect(complaint(std::string("/tmp")), "cannot read '/tmp'", "give the path"); }
 
@@ -102,7 +105,8 @@ TEST_F(BadMesh, CutShortAnywhere) {
 
 TEST_F(BadMesh, CutShortInOtherFormats) {
   const std::string old =
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"matrix\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n"
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 "
+      "\"matrix\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n"
       "2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n";
   EXPECT_EQ(complaint(written(old)), "");
   for (std::size_t length = 30; length + 14 < old.size(); length += 7)
@@ -217,8 +221,10 @@ TEST_F(BadMesh, SecondOrder) {
 
 TEST_F(BadMesh, PeriodicInOldFormat) {
   const std::string old =
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"matrix\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n"
-      "2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n$Periodic\n1\n0 1 2\n1\n1 2\n"
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 "
+      "\"matrix\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n"
+      "2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n$Periodic\n1\n0 1 2\n1\n1 "
+      "2\n"
       "$EndPeriodic\n";
   expect(complaint(written(old)), "loses periodicity", "msh41");
 }
@@ -247,7 +253,7 @@ TEST_F(BadMesh, NodeOfNoCellIsLeftOut) {
 TEST_F(BadMesh, LineBesideTheCells) {
   file.nodes = "1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 2 0\n";
   file.elements = "2 3 1 3\n1 1 1 1\n1 4 5\n2 1 2 2\n2 1 2 3\n3 1 3 4\n";
-  expect(complaint(file), "belong to no cell", "save only");
+  expect(complaint(file), "belongs to no cell", "save only");
 }
 
 TEST_F(BadMesh, PointsOrLinesOnly) {

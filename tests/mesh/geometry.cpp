@@ -110,7 +110,8 @@ TEST(Geometry, CornersAreUnwrappedAcrossTheSeam) {
     bool wraps = false;
     for (int cell = 0; cell < mesh.cells.size(); ++cell)
       for (int k = mesh.cells.first[cell]; k < mesh.cells.first[cell + 1]; ++k) {
-        const Vector2 &corner = mesh.cells.corners[k], &home = mesh.nodes.position[mesh.cells.corner_nodes[k]];
+        const Vector2 &corner = mesh.cells.corners[k],
+                      &home = mesh.nodes.position[mesh.cells.corner_nodes[k]];
         EXPECT_LT(std::abs(corner[0] - mesh.cells.corners[mesh.cells.first[cell]][0]), 2 * width / 6);
         EXPECT_NEAR(corner[1], home[1], rounding);
         const double shift = std::abs(corner[0] - home[0]);

@@ -37,7 +37,8 @@ TEST(Numbering, EveryNodeAndCellHasOneOwner) {
     for (int i = 0; i < mesh.nodes.owned; ++i) ++owners[mesh.nodes.number[i]];
     for (int cell = 0; cell < mesh.cells.size(); ++cell)
       owners[mesh.nodes.total + mesh.cells.number[cell]] += mesh.cells.owned[cell];
-    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, owners.data(), static_cast<int>(owners.size()), MPIU_INT, MPI_SUM,
+                  PETSC_COMM_WORLD);
     EXPECT_EQ(std::set<PetscInt>(owners.begin(), owners.end()), std::set<PetscInt>{1});
   }
 }
@@ -57,7 +58,8 @@ TEST(Numbering, TheHaloBringsEachGhostItsOwner) {
     SCOPED_TRACE(testing::Message() << c);
     const Mesh mesh = mesh_of(c);
     NodalVector x(PETSC_COMM_WORLD, mesh.nodes, true);
-    for (int i = 0; i < mesh.nodes.owned; ++i) x.data()[i] = {1.0 * mesh.nodes.number[i], mesh.nodes.position[i][1]};
+    for (int i = 0; i < mesh.nodes.owned; ++i)
+      x.data()[i] = {1.0 * mesh.nodes.number[i], mesh.nodes.position[i][1]};
     x.begin_update();
     x.end_update();
     for (int i = mesh.nodes.owned; i < mesh.nodes.size(); ++i) {

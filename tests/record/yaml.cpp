@@ -48,14 +48,14 @@ TEST(RunYaml, IsASceneAgain) {
       {"surface_speed", "-2"},
       {"verbose", "true"},
   };
-  const Scene scene(run_yaml(options, {{"version", "0.1.0", ""}, {"stable_step", "1.5e-9", "s"}}));
+  const Scene scene(run_yaml(options, [](Yaml& yaml) { yaml.text("version", "0.1.0").exact("stable_step", 1.5e-9, "s"); }));
   for (const auto& [name, value] : options) {
     if (name.find(' ') == std::string::npos && !value.empty()) {
       EXPECT_EQ(scene.value(name), value);
     }
   }
   EXPECT_EQ(scene.value("run_version"), "0.1.0");
-  EXPECT_EQ(scene.value("run_stable_step"), "1.5e-9");
+  EXPECT_EQ(scene.value("run_stable_step"), "1.5e-09");
 }
 
 TEST(Yaml, NumbersAreReadBackAsTheyWere) {

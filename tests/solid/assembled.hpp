@@ -8,8 +8,8 @@
 
 namespace slipscale::testing_support {
 
-/// The same stiffness as a PETSc matrix of the given type, rows in the order of the mesh's owned nodes. Every rank
-/// adds the cells it owns. Collective.
+/// The same stiffness as a PETSc matrix of the given type, rows in the order of the mesh's owned nodes. Every
+/// rank adds the cells it owns. Collective.
 inline OwnedMat assembled_stiffness(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials,
                                     MatType type) {
   constexpr PetscInt most_neighbours = 16;

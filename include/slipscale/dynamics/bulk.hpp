@@ -8,10 +8,10 @@ namespace slipscale {
 
 /// Sums over the owned nodes that the energy ledger needs when the bulk dissipates.
 struct BulkSums {
-  double increment_force = 0;  ///< Δuᵀ K Δu of the step just closed, J/m
+  double increment_force = 0;    ///< Δuᵀ K Δu of the step just closed, J/m
   double increment_inertia = 0;  ///< Δaᵀ M Δa of the step just closed, N²/kg/m
-  double damping_past = 0;     ///< damping force at t_n times u_n − u_{n−1}, J/m
-  double damping_next = 0;     ///< damping force at t_n times u_{n+1} − u_n, J/m
+  double damping_past = 0;       ///< damping force at t_n times u_n − u_{n−1}, J/m
+  double damping_next = 0;       ///< damping force at t_n times u_{n+1} − u_n, J/m
 };
 
 /// What the free motion of a node needs; arrays by local node.
@@ -28,15 +28,19 @@ struct BulkPhysics {
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
-/// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping, velocity,
-/// displacement. Called for every run of owned nodes as soon as their internal force is complete.
+/// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
+/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete.
 template <BulkPhysics physics>
 class FreeMotion {
  public:
-  FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping, const Vector2& gravity,
-             BulkSums& sums)
-      : arrays_(arrays), step_(step), gravity_(load(gravity)), lag_(damping.stiffness / step.time_step),
-        mass_damping_(damping.mass), sums_(sums) {}
+  FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping,
+             const Vector2& gravity, BulkSums& sums)
+      : arrays_(arrays),
+        step_(step),
+        gravity_(load(gravity)),
+        lag_(damping.stiffness / step.time_step),
+        mass_damping_(damping.mass),
+        sums_(sums) {}
 
   void operator()(int begin, int end) const {
     // Local copies: the compiler cannot know that no store below changes the members.
@@ -48,12 +52,14 @@ class FreeMotion {
     const double half = 0.5 * step.time_step * step.time_step;
     Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
     for (int i = begin; i < end; ++i) {
-      const Lanes u = load(arrays.displacement[i]), v = load(arrays.velocity[i]), a = load(arrays.acceleration[i]);
+      const Lanes u = load(arrays.displacement[i]), v = load(arrays.velocity[i]),
+                  a = load(arrays.acceleration[i]);
       const Lanes internal = load(arrays.force[i]);
       const double inverse_mass = arrays.inverse_mass[i];
       const Lanes w = v + step.predictor * a;
       Lanes resistance = internal;
-      if constexpr (physics.stiffness_damping) resistance += lag * (internal - load(arrays.previous_force[i]));
+      if constexpr (physics.stiffness_damping)
+        resistance += lag * (internal - load(arrays.previous_force[i]));
       if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
       const Lanes new_a = gravity - resistance * inverse_mass;
       const Lanes new_v = w + step.velocity * new_a;

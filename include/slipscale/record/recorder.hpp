@@ -32,8 +32,8 @@ RecordChoice read_record(const Options& options);
 /// Keeps what the user asked for: it says which steps are to be observed, and writes them.
 class Recorder {
  public:
-  /// Creates the folder's files. Throws UserError for a point outside the body, for a time outside the run, both
-  /// before the folder is touched, and for a folder that cannot be written to. Collective.
+  /// Creates the folder's files. Throws UserError for a point outside the body, for a time outside the run,
+  /// both before the folder is touched, and for a folder that cannot be written to. Collective.
   Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time);
 
   /// Whether step n is to be observed.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ class Yaml {
   Yaml& remark(const std::string& text);
   /// `key: value  # comment`; the text is quoted where YAML would take it for something else.
   Yaml& text(const std::string& key, const std::string& value, const std::string& comment = "");
+  /// A value that is YAML already, a list say.
+  Yaml& line(const std::string& key, const std::string& value, const std::string& comment);
   /// A number for people, six digits.
   Yaml& number(const std::string& key, double value, const std::string& comment = "");
   /// A number that is read back as the same double.
@@ -29,21 +32,13 @@ class Yaml {
   const std::string& str() const { return text_; }
 
  private:
-  Yaml& line(const std::string& key, const std::string& value, const std::string& comment);
-
   std::string text_;
   int depth_ = 0;
 };
 
-/// A fact about a run that is not an option: its version, ranks, stable step, …
-struct RunFact {
-  std::string key;
-  std::string value;    ///< as it shall stand there
-  std::string comment;  ///< its unit, say; may be empty
-};
-
-/// The text of run.yaml: every effective option by its flat name, so that `-options_file_yaml run.yaml` runs
-/// it again, and the facts nested under `run`, which is no option.
-std::string run_yaml(const std::map<std::string, std::string>& effective, const std::vector<RunFact>& facts);
+/// The text of run.yaml: every effective option by its flat name, so that `-options_file_yaml run.yaml` runs it again,
+/// and what `facts` writes (the version, ranks, stable step, …) nested under `run`, which is no option.
+std::string run_yaml(const std::map<std::string, std::string>& effective,
+                     const std::function<void(Yaml& yaml)>& facts);
 
 }  // namespace slipscale

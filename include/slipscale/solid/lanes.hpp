@@ -6,8 +6,8 @@
 
 namespace slipscale {
 
-/// Both components of a plane vector, computed together: the vector type of GCC and Clang, which every processor
-/// has in some form. Its arithmetic is that of two separate doubles, to the last bit.
+/// Both components of a plane vector, computed together: the vector type of GCC and Clang, which every
+/// processor has in some form. Its arithmetic is that of two separate doubles, to the last bit.
 using Lanes = double __attribute__((vector_size(16)));
 
 inline Lanes load(const Vector2& x) {

@@ -13,9 +13,10 @@ namespace slipscale {
 
 /// The stiffness of a body as a graph of node pairs.
 ///
-/// A rigid translation costs nothing, so each row of 2×2 blocks sums to zero and the diagonal need not be stored:
-/// f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Pairs are visited in the
-/// order of their whole-mesh numbers (low, high), so the sum at a node has the same bits on any number of ranks.
+/// A rigid translation costs nothing, so each row of 2×2 blocks sums to zero and the diagonal need not be
+/// stored: f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Pairs are
+/// visited in the order of their whole-mesh numbers (low, high), so the sum at a node has the same bits on
+/// any number of ranks.
 ///
 /// `Scalar` is what the blocks are stored in; all arithmetic is in double precision.
 template <class Scalar>
@@ -24,10 +25,10 @@ class PairStiffness {
   /// Assembles Σ_cells ∫ Bᵀ C B in the order of cell numbers. `materials` [regions].
   PairStiffness(const Mesh& mesh, const std::vector<Material>& materials);
 
-  /// force = K displacement, N/m, at the owned nodes; what it leaves at ghosts is meaningless. Both arrays hold all
-  /// local nodes. `complete(begin, end)` is called for runs of owned nodes, in ascending order and each node once, as
-  /// soon as their force is complete; from then on nothing reads their displacement, which may be advanced at once,
-  /// while all of it is still in the cache.
+  /// force = K displacement, N/m, at the owned nodes; what it leaves at ghosts is meaningless. Both arrays
+  /// hold all local nodes. `complete(begin, end)` is called for runs of owned nodes, in ascending order and
+  /// each node once, as soon as their force is complete; from then on nothing reads their displacement, which
+  /// may be advanced at once, while all of it is still in the cache.
   template <class Complete>
   void multiply(Vector2* displacement, Vector2* force, Complete&& complete) const;
 
@@ -37,7 +38,8 @@ class PairStiffness {
 
   std::size_t pairs() const { return high_.size(); }
   std::size_t bytes() const {
-    return pairs() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) + chunks_.size() * sizeof(Chunk);
+    return pairs() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) +
+           chunks_.size() * sizeof(Chunk);
   }
 
  private:
@@ -51,8 +53,8 @@ class PairStiffness {
   };
   /// Some successive rows: few enough for the first-level cache.
   struct Chunk {
-    int begin, end;                    ///< rows
-    int touched;                       ///< owned nodes below this one are touched by this chunk or an earlier one
+    int begin, end;  ///< rows
+    int touched;     ///< owned nodes below this one are touched by this chunk or an earlier one
     int complete_begin, complete_end;  ///< owned nodes whose force is complete after it
   };
 
