@@ -1,6 +1,8 @@
 #include "slipscale/solid/pair_stiffness.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "slipscale/solid/element.hpp"
@@ -58,7 +60,10 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
   rows_.push_back({-1, static_cast<int>(high_.size())});
 
   // Sums are taken in double precision whatever the storage.
-  std::vector<std::array<double, 4>> sums(high_.size(), {0, 0, 0, 0});
+  struct Sum {
+    double xx = 0, xy = 0, yx = 0, yy = 0, size = 0;
+  };
+  std::vector<Sum> sums(high_.size());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
     const int* nodes = mesh.cells.corner_nodes.data() + first;
@@ -70,15 +75,30 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
         if (number[low] >= number[high] || std::min(low, high) >= owned_) continue;
         int pair = rows_[row_of[low]].first;
         while (high_[pair] != high) ++pair;
-        auto& sum = sums[pair];
-        for (int m = 0; m < 2; ++m)
-          for (int n = 0; n < 2; ++n) sum[2 * m + n] += k(2 * a + m, 2 * b + n);
+        const auto block = k.block<2, 2>(2 * a, 2 * b);
+        Sum& sum = sums[pair];
+        sum.xx += block(0, 0), sum.xy += block(0, 1), sum.yx += block(1, 0), sum.yy += block(1, 1);
+        sum.size += block.cwiseAbs().sum();
       }
   }
+  store_blocks(sums);
+}
+
+template <class Scalar>
+template <class Sums>
+void PairStiffness<Scalar>::store_blocks(const Sums& sums) {
+  // What rounding leaves of two skew parts that cancel.
+  constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
   blocks_.reserve(sums.size());
-  for (const auto& s : sums)
-    blocks_.push_back({static_cast<Scalar>(s[0]), static_cast<Scalar>(s[1]), static_cast<Scalar>(s[2]),
-                       static_cast<Scalar>(s[3])});
+  for (int row = 0; row + 1 < static_cast<int>(rows_.size()); ++row)
+    for (int pair = rows_[row].first; pair < rows_[row + 1].first; ++pair) {
+      const auto& sum = sums[pair];
+      blocks_.push_back({static_cast<Scalar>(sum.xx), static_cast<Scalar>(0.5 * (sum.xy + sum.yx)),
+                         static_cast<Scalar>(sum.yy)});
+      const double skew = 0.5 * (sum.xy - sum.yx);
+      if (std::abs(skew) > nothing * sum.size) skews_.push_back({row, high_[pair], static_cast<Scalar>(skew)});
+    }
+  skews_.push_back({-1, -1, 0});
 }
 
 template class PairStiffness<double>;

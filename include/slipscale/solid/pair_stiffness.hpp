@@ -14,7 +14,9 @@ namespace slipscale {
 /// The stiffness of a body as a graph of node pairs.
 ///
 /// A rigid translation costs nothing, so each row of 2×2 blocks sums to zero and the diagonal need not be
-/// stored: f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Pairs are
+/// stored: f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Of each block
+/// the symmetric part is stored; the skew part, (C12 − C66)/2 ∫ ∇N_i × ∇N_j, is a boundary integral that cancels
+/// between cells of one material, so it is kept apart for the few pairs on outer edges and interfaces. Pairs are
 /// visited in the order of their whole-mesh numbers (low, high), so the sum at a node has the same bits on
 /// any number of ranks.
 ///
@@ -39,13 +41,18 @@ class PairStiffness {
   std::size_t pairs() const { return high_.size(); }
   std::size_t bytes() const {
     return pairs() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) +
-           chunks_.size() * sizeof(Chunk);
+           skews_.size() * sizeof(Skew) + chunks_.size() * sizeof(Chunk);
   }
 
  private:
-  /// K_ij with i the node of lower number, row by row.
+  /// Symmetric part of K_ij, row by row.
   struct Block {
-    Scalar xx, xy, yx, yy;
+    Scalar xx, xy, yy;
+  };
+  /// Skew part of K_ij with i the node of lower number: +value in xy, −value in yx.
+  struct Skew {
+    int row, high;
+    Scalar value;
   };
   struct Row {
     int node;   ///< local node, the lower of its pairs
@@ -58,10 +65,14 @@ class PairStiffness {
     int complete_begin, complete_end;  ///< owned nodes whose force is complete after it
   };
 
+  template <class Sums>
+  void store_blocks(const Sums& sums);
+
   int owned_ = 0, count_ = 0;
   std::vector<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
   std::vector<int> high_;
   std::vector<Block> blocks_;
+  std::vector<Skew> skews_;  ///< in the order of the pairs; a last one of no row closes the list
   std::vector<Chunk> chunks_;
 };
 
@@ -73,6 +84,7 @@ void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Comp
   const Block* block = blocks_.data();
   const int* const highs = high_.data();
   const int* high = highs;
+  const Skew* skew = skews_.data();
   int touched = 0;
   for (const Chunk& chunk : chunks_) {
     for (; touched < chunk.touched; ++touched) force[touched] = {0, 0};
@@ -84,10 +96,17 @@ void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Comp
         __builtin_prefetch(block + 32);  // the processor's own prefetch does not keep up with this stream
         const int j = *high;
         const Lanes d = load(displacement[j]) - u;
-        const Lanes kx{block->xx, block->xy}, ky{block->yx, block->yy};
-        const Lanes x = kx * d, y = ky * d;
-        f += Lanes{x[0], y[0]} + Lanes{x[1], y[1]};
-        store(force[j], load(force[j]) - (kx * Lanes{d[0], d[0]} + ky * Lanes{d[1], d[1]}));
+        const Lanes pull = Lanes{block->xx, block->xy} * Lanes{d[0], d[0]} +
+                           Lanes{block->xy, block->yy} * Lanes{d[1], d[1]};
+        f += pull;
+        store(force[j], load(force[j]) - pull);
+      }
+      for (; skew->row == r; ++skew) {
+        const int j = skew->high;
+        const Lanes d = load(displacement[j]) - u;
+        const Lanes turn = Lanes{skew->value, -skew->value} * Lanes{d[1], d[0]};
+        f += turn;
+        store(force[j], load(force[j]) + turn);
       }
       store(force[i], f);
     }
