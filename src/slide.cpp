@@ -13,7 +13,8 @@ using namespace slipscale;
 
 namespace {
 
-/// The names that options may carry: those of the mesh, and `all` for every region that has no material of its own.
+/// The names that options may carry: those of the mesh, and `all` for every region that has no material of
+/// its own.
 void know_names(Options& options, const Mesh& mesh) {
   auto regions = mesh.region_names();
   regions.push_back("all");
@@ -71,9 +72,10 @@ void slide(Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program(argc, argv,
-                     {"slide",
-                      "Explicit dynamics of a deformable block that is pressed on a rigid surface moving under it: "
-                      "beta2 time scheme, Lagrange multipliers for contact, regularised Coulomb friction.",
-                      mesh_schema() + material_schema() + scene_schema() + record_schema(), slide});
+  return run_program(
+      argc, argv,
+      {"slide",
+       "Explicit dynamics of a deformable block that is pressed on a rigid surface moving under it: "
+       "beta2 time scheme, Lagrange multipliers for contact, regularised Coulomb friction.",
+       mesh_schema() + material_schema() + scene_schema() + record_schema(), slide});
 }

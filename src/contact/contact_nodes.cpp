@@ -2,7 +2,8 @@
 
 namespace slipscale {
 
-void ContactNodes::add(int local_node, int place, double nodal_mass, double length, double height, bool is_held) {
+void ContactNodes::add(int local_node, int place, double nodal_mass, double length, double height,
+                       bool is_held) {
   node.push_back(local_node);
   slot.push_back(place);
   mass.push_back(nodal_mass);

@@ -33,15 +33,16 @@ Friction RegularizedInstantaneous::operator()(const FrictionDemand& demand, Fric
     const double kept = std::max(0.0, std::copysign(1.0, demand.trial) * memory.traction);
     const double strength =
         step.keep * kept + coefficient * (step.now * demand.pressure + step.before * memory.pressure);
-    if (strength < std::abs(demand.trial)) answer = {std::copysign(strength, demand.trial), ContactStatus::slip};
+    if (strength < std::abs(demand.trial))
+      answer = {std::copysign(strength, demand.trial), ContactStatus::slip};
   }
   memory = {answer.traction, demand.pressure};
   return answer;
 }
 
 Friction RegularizedStrength::operator()(const FrictionDemand& demand, FrictionMemory& memory) const {
-  const double strength =
-      step.keep * memory.traction + coefficient * (step.now * demand.pressure + step.before * memory.pressure);
+  const double strength = step.keep * memory.traction +
+                          coefficient * (step.now * demand.pressure + step.before * memory.pressure);
   memory = {strength, demand.pressure};
   if (std::abs(demand.trial) <= strength) return {demand.trial, ContactStatus::stick};
   return {std::copysign(strength, demand.trial), ContactStatus::slip};

@@ -20,7 +20,8 @@ Schema friction_schema() {
        "what T is made with: the surface's speed, T = L*/|V|, or the slip rate, T = L/(|slip rate| + V*)"},
       {"friction_rate_reference", Kind::real, "m/s", required, range::positive, "V* of `rate: slip`"},
       {"friction_threshold", Kind::text, "", "instantaneous", range::one_of({"instantaneous", "regularized"}),
-       "a node sticks while |tau| is below mu p (the paper's), or below a strength that itself relaxes to mu p"},
+       "a node sticks while |tau| is below mu p (the paper's), or below a strength that itself relaxes to mu "
+       "p"},
   };
 }
 
@@ -37,7 +38,8 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
   if (time && options.given("friction_length"))
     throw UserError("-friction_time contradicts -friction_length; give the relaxation time or the length");
   if (choice.by_slip_rate) {
-    if (time) throw UserError("-friction_time has no meaning with -friction_rate slip; give -friction_length");
+    if (time)
+      throw UserError("-friction_time has no meaning with -friction_rate slip; give -friction_length");
     choice.length = options.real("friction_length");
     choice.rate_reference = options.real("friction_rate_reference");
   } else if (time) {
@@ -45,8 +47,9 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
   } else {
     choice.length = options.real("friction_length");
     if (surface.speed == 0)
-      throw UserError("-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -friction_time in s, "
-                      "or -friction_rate slip");
+      throw UserError(
+          "-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -friction_time in s, "
+          "or -friction_rate slip");
     choice.time = choice.length / std::abs(surface.speed);
   }
   return choice;
@@ -71,10 +74,9 @@ std::string describe(const FrictionChoice& choice) {
   if (choice.law == FrictionChoice::Law::none) return "none";
   const std::string mu = format("mu %g", choice.coefficient);
   if (choice.law == FrictionChoice::Law::coulomb) return "coulomb, " + mu;
-  const std::string relaxation = choice.by_slip_rate
-                                     ? format("T = L/(|slip rate| + V*), L %g m, V* %g m/s", choice.length,
-                                              choice.rate_reference)
-                                     : "T " + engineering(choice.time, "s");
+  const std::string relaxation = choice.by_slip_rate ? format("T = L/(|slip rate| + V*), L %g m, V* %g m/s",
+                                                              choice.length, choice.rate_reference)
+                                                     : "T " + engineering(choice.time, "s");
   return "regularized, " + mu + ", " + relaxation + ", threshold " +
          (choice.stored_strength ? "regularized" : "instantaneous");
 }

@@ -16,7 +16,7 @@ BoundaryNodes::BoundaryNodes(const Model& model, const std::vector<std::string>&
   std::sort(node.begin(), node.end());
   node.erase(std::unique(node.begin(), node.end()), node.end());
   for (int i : node) mass.push_back(model.mass[i]);
-  for (auto* field : {&displacement, &past_increment, &acceleration, &internal, &load, &support})
+  for (auto* field : {&displacement, &past_increment, &predictor, &acceleration, &internal, &load, &support})
     field->assign(node.size(), {0, 0});
 }
 
@@ -31,7 +31,8 @@ void BoundaryNodes::remember(const NodalState& state, const Vector2* previous_fo
     const Vector2 u = state.displacement[i];
     past_increment[k] = {u[0] - displacement[k][0], u[1] - displacement[k][1]};
     displacement[k] = u;
-    acceleration[k] = state.acceleration[i];
+    predictor[k] = state.predictor[i];
+    if (state.acceleration) acceleration[k] = state.acceleration[i];
     internal[k] = previous_force[i];
   }
 }
@@ -50,8 +51,9 @@ Loads::Loads(const Mesh& mesh, const std::vector<BoundaryCondition>& conditions,
                          -0.5 * condition.pressure * edge.outward[1]};
       for (int end : edge.nodes) {
         if (end >= mesh.nodes.owned) continue;
-        Vector2& force = own[std::lower_bound(boundary.nodes.begin(), boundary.nodes.end(), end) -
-                             boundary.nodes.begin()].force;
+        Vector2& force =
+            own[std::lower_bound(boundary.nodes.begin(), boundary.nodes.end(), end) - boundary.nodes.begin()]
+                .force;
         force = {force[0] + half[0], force[1] + half[1]};
       }
     }
@@ -59,7 +61,8 @@ Loads::Loads(const Mesh& mesh, const std::vector<BoundaryCondition>& conditions,
   }
 }
 
-void Loads::apply(double time, const StepCoefficients& step, BoundaryNodes& nodes, const NodalState& state) const {
+void Loads::apply(double time, const StepCoefficients& step, BoundaryNodes& nodes,
+                  const NodalState& state) const {
   for (const Entry& entry : entries_) nodes.load[entry.slot] = {0, 0};
   std::size_t known = ramps_.size();
   double level = 0;
@@ -82,17 +85,20 @@ Supports::Supports(MPI_Comm comm, const Mesh& mesh, const std::vector<BoundaryCo
     for (int axis = 0; axis < 2; ++axis) {
       if (!condition.displacement[axis]) continue;
       for (int i : mesh.find_boundary(condition.boundary)->nodes) {
-        const Entry entry{nodes.slot_of(i), axis, c, initial_displacement[i][axis], *condition.displacement[axis]};
+        const Entry entry{nodes.slot_of(i), axis, c, initial_displacement[i][axis],
+                          *condition.displacement[axis]};
         const auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& other) {
           return other.slot == entry.slot && other.axis == axis;
         });
         if (same == entries_.end()) {
           entries_.push_back(entry);
-        } else if (same->change != entry.change || (entry.change != 0 && ramps_[same->condition] != condition.ramp)) {
+        } else if (same->change != entry.change ||
+                   (entry.change != 0 && ramps_[same->condition] != condition.ramp)) {
           const char* name = axis == 0 ? "x" : "y";
           fault = "boundaries '" + conditions[same->condition].boundary + "' and '" + condition.boundary +
-                  "' prescribe different displacements along " + name + " at the node they share; make -boundary_" +
-                  condition.boundary + "_" + name + " equal to the other, or free";
+                  "' prescribe different displacements along " + name +
+                  " at the node they share; make -boundary_" + condition.boundary + "_" + name +
+                  " equal to the other, or free";
         }
       }
     }

@@ -97,7 +97,8 @@ double round_up_to_four_digits(double x) {
 
 FrequencyBounds largest_frequency(MPI_Comm comm, const Model& model) {
   const double safe = element_eigenvalue_bound(comm, model.mesh, model.materials);
-  // Ritz values converge from below, so the residual is added as a margin; the element bound is never exceeded.
+  // Ritz values converge from below, so the residual is added as a margin; the element bound is never
+  // exceeded.
   const Ritz ritz = lanczos(comm, model, 300, 1e-4);
   const double sharp = std::min(safe, ritz.value + ritz.residual);
   return {round_up_to_four_digits(std::sqrt(sharp)), std::sqrt(safe)};

@@ -9,9 +9,11 @@ namespace {
 void refuse_unless_uniform(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     const Eigen::Matrix3d &c = material.stiffness, &first = materials.front().stiffness;
-    if (c(1, 1) != first(1, 1) || c(2, 2) != first(2, 2) || c(0, 1) != first(0, 1) || c(1, 2) != 0 || c(0, 2) != 0)
-      throw UserError("-initial_pressure and -initial_shear describe a uniform state, but the materials of the regions "
-                      "differ or couple shear to stretch; load the body through -boundary_<boundary>_pressure instead");
+    if (c(1, 1) != first(1, 1) || c(2, 2) != first(2, 2) || c(0, 1) != first(0, 1) || c(1, 2) != 0 ||
+        c(0, 2) != 0)
+      throw UserError(
+          "-initial_pressure and -initial_shear describe a uniform state, but the materials of the regions "
+          "differ or couple shear to stretch; load the body through -boundary_<boundary>_pressure instead");
   }
 }
 
@@ -19,11 +21,13 @@ void refuse_unless_uniform(const std::vector<Material>& materials) {
 
 Schema initial_schema() {
   return {
-      {"initial_velocity", Kind::reals, "m/s", "0,0", range::any, "velocity of the whole body at the start, vx,vy"},
+      {"initial_velocity", Kind::reals, "m/s", "0,0", range::any,
+       "velocity of the whole body at the start, vx,vy"},
       {"initial_sine_amplitude", Kind::real, "m/s", "0", range::any,
        "adds v_x = amplitude cos(2 pi x/wavelength)(1-y/H)^2 at the start, for stability studies"},
       {"initial_sine_wavelength", Kind::real, "m", required, range::positive, "its wavelength"},
-      {"initial_gap", Kind::real, "m", "0", range::non_negative, "lifts the body off the surface at the start"},
+      {"initial_gap", Kind::real, "m", "0", range::non_negative,
+       "lifts the body off the surface at the start"},
       {"initial_pressure", Kind::real, "Pa", "0", range::any,
        "starts from the uniform state u_y = -p y/C22; friction remembers this pressure"},
       {"initial_shear", Kind::real, "Pa", "0", range::any,
@@ -56,7 +60,8 @@ void set_initial(const InitialState& initial, const Mesh& mesh, const std::vecto
     velocity[i] = initial.velocity;
     if (initial.amplitude != 0) {
       const double depth = 1 - y / height;
-      velocity[i][0] += initial.amplitude * std::cos(2 * std::numbers::pi * x / initial.wavelength) * depth * depth;
+      velocity[i][0] +=
+          initial.amplitude * std::cos(2 * std::numbers::pi * x / initial.wavelength) * depth * depth;
     }
   }
 }

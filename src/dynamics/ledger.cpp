@@ -41,8 +41,9 @@ void EnergyLedger::add(const BoundaryNodes& nodes, const ContactNodes& contact, 
 }
 
 void EnergyLedger::add_bulk(BulkSums sums, const BulkPhysics& physics, const Damping& damping,
-                            const StepCoefficients& step, const BoundaryNodes& nodes, const ContactNodes& contact,
-                            const NodalState& state, const Vector2* force, bool first) {
+                            const StepCoefficients& step, const BoundaryNodes& nodes,
+                            const ContactNodes& contact, const NodalState& state, const Vector2* force,
+                            bool first) {
   std::vector<Vector2>& total = scratch_;
   total.resize(static_cast<std::size_t>(nodes.size()));
   for (int k = 0; k < nodes.size(); ++k)
@@ -53,12 +54,13 @@ void EnergyLedger::add_bulk(BulkSums sums, const BulkPhysics& physics, const Dam
   for (int k = 0; k < nodes.size(); ++k) {
     const int i = nodes.node[k];
     for (int axis = 0; axis < 2; ++axis) {
-      const double a = state.acceleration[i][axis], pushed = total[k][axis] / nodes.mass[k];
-      const double w = state.velocity[i][axis] - step.velocity * a;
+      const double pushed = total[k][axis] / nodes.mass[k];
       const double damper = -damping.stiffness / step.time_step * (force[i][axis] - nodes.internal[k][axis]) -
-                            damping.mass * nodes.mass[k] * w;
+                            damping.mass * nodes.mass[k] * nodes.predictor[k][axis];
       sums.damping_next += damper * step.displacement * pushed;
-      sums.increment_inertia += total[k][axis] * (2 * a - pushed - 2 * nodes.acceleration[k][axis]);
+      if (physics.numerical_dissipation)
+        sums.increment_inertia +=
+            total[k][axis] * (2 * state.acceleration[i][axis] - pushed - 2 * nodes.acceleration[k][axis]);
     }
   }
   if (first) sums.increment_force = sums.increment_inertia = sums.damping_past = 0;
@@ -85,9 +87,10 @@ void close_balance(Energy& e, double start) {
   const double supplied = e.loads + e.supports + e.body_force + e.surface_drive;
   const double lost = e.friction_heat + e.impact_loss + e.damping + e.scheme_dissipation;
   e.residual = e.kinetic + e.strain - start - supplied + lost;
-  e.flowed = std::abs(e.kinetic) + std::abs(e.strain) + std::abs(start) + std::abs(e.loads) + std::abs(e.supports) +
-             std::abs(e.body_force) + std::abs(e.surface_drive) + std::abs(e.friction_heat) +
-             std::abs(e.impact_loss) + std::abs(e.damping) + std::abs(e.scheme_dissipation);
+  e.flowed = std::abs(e.kinetic) + std::abs(e.strain) + std::abs(start) + std::abs(e.loads) +
+             std::abs(e.supports) + std::abs(e.body_force) + std::abs(e.surface_drive) +
+             std::abs(e.friction_heat) + std::abs(e.impact_loss) + std::abs(e.damping) +
+             std::abs(e.scheme_dissipation);
 }
 
 }  // namespace slipscale

@@ -22,18 +22,21 @@ Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage)
 
 NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts) {
   const auto ghosts = static_cast<PetscInt>(with_ghosts ? nodes.ghosts.size() : 0);
-  petsc(VecCreateGhostBlock(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(), vec_.put()));
+  petsc(VecCreateGhostBlock(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(),
+                            vec_.put()));
   petsc(VecSet(vec_, 0));
   petsc(VecGhostGetLocalForm(vec_, &local_));
   petsc(VecSet(local_, 0));
-  // Held for the vector's life: host memory does not move, and the step loop should not ask for it every time.
+  // Held for the vector's life: host memory does not move, and the step loop should not ask for it every
+  // time.
   PetscScalar* values = nullptr;
   petsc(VecGetArray(local_, &values));
   array_ = reinterpret_cast<Vector2*>(values);
 }
 
 NodalVector::~NodalVector() {
-  if (updating_) (void)VecGhostUpdateEnd(vec_, INSERT_VALUES, SCATTER_FORWARD);  // PETSc refuses to free it before
+  if (updating_)
+    (void)VecGhostUpdateEnd(vec_, INSERT_VALUES, SCATTER_FORWARD);  // PETSc refuses to free it before
   auto* values = reinterpret_cast<PetscScalar*>(array_);
   (void)VecRestoreArray(local_, &values);
   (void)VecGhostRestoreLocalForm(vec_, &local_);

@@ -20,7 +20,14 @@ std::vector<std::string> boundaries_in_use(const Scene& scene) {
 }
 
 BulkPhysics bulk_physics(const Scene& scene) {
-  return {scene.damping.mass > 0, scene.damping.stiffness > 0, scene.beta2 > 0.5};
+  const bool dissipates = scene.beta2 > 0.5;
+  return {scene.damping.mass > 0, scene.damping.stiffness > 0, dissipates,
+          dissipates || scene.friction.by_slip_rate};
+}
+
+BulkPhysics keeping_acceleration(BulkPhysics physics) {
+  physics.keeps_acceleration = true;
+  return physics;
 }
 
 /// Half of each edge of the boundary to each of its ends, by local node, m.
@@ -39,6 +46,7 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       scene_(scene),
       time_step_(time_step),
       u_(comm, model.mesh.nodes, true),
+      w_(comm, model.mesh.nodes, false),
       v_(comm, model.mesh.nodes, false),
       a_(comm, model.mesh.nodes, false),
       force_(model.mesh.nodes.number.size(), {0, 0}),
@@ -50,8 +58,9 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       start_law_(friction_law(scene.friction, 0)),
       physics_(bulk_physics(scene)),
       free_motion_(free_motion_for(physics_)),
+      observed_free_motion_(free_motion_for(keeping_acceleration(physics_))),
       ledger_(scene.beta2, time_step) {
-  set_initial(scene.initial, model.mesh, model.materials, u_.data(), v_.data());
+  set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
   if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
@@ -74,70 +83,91 @@ void SlidingBody::set_contact_nodes() {
     const double clearance = mesh.nodes.position[i][1] - scene_.surface->height;
     const double tolerance = 1e-9 * (mesh.upper[1] - mesh.lower[1]);
     if (clearance + u_.data()[i][1] < -tolerance)
-      fault = format("-surface_height is %g m, but the body reaches down to %g m at x = %g m; lower the surface or lift "
-                     "the body with -initial_gap",
-                     scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], mesh.nodes.position[i][0]);
+      fault = format(
+          "-surface_height is %g m, but the body reaches down to %g m at x = %g m; lower the surface or lift "
+          "the body with -initial_gap",
+          scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], mesh.nodes.position[i][0]);
     contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
   }
   throw_together(comm_, fault);
   const InitialState& initial = scene_.initial;
   if (initial.pressure != 0 || initial.shear != 0)
-    contact_.start_memory(scene_.friction.stored_strength ? std::abs(initial.shear) : initial.shear, initial.pressure);
+    contact_.start_memory(scene_.friction.stored_strength ? std::abs(initial.shear) : initial.shear,
+                          initial.pressure);
 }
 
 template <BulkPhysics physics>
 void SlidingBody::free_motion(const StepCoefficients& step) {
-  const BulkArrays arrays{inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), v_.data(), a_.data()};
+  const BulkArrays arrays{
+      inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
   BulkSums sums;
   const FreeMotion<physics> move(arrays, step, scene_.damping, scene_.body_acceleration, sums);
   std::visit([&](const auto& pairs) { pairs.multiply(u_.data(), force_.data(), move); }, model_.stiffness);
   bulk_ = sums;
 }
 
+template <std::size_t... Index>
+auto SlidingBody::free_motion_table(std::index_sequence<Index...>) {
+  return std::array<FreeMotionStep, sizeof...(Index)>{&SlidingBody::free_motion<BulkPhysics{
+      (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0}>...};
+}
+
 SlidingBody::FreeMotionStep SlidingBody::free_motion_for(const BulkPhysics& physics) {
-  static constexpr FreeMotionStep table[2][2][2] = {
-      {{&SlidingBody::free_motion<BulkPhysics{false, false, false}>,
-        &SlidingBody::free_motion<BulkPhysics{false, false, true}>},
-       {&SlidingBody::free_motion<BulkPhysics{false, true, false}>,
-        &SlidingBody::free_motion<BulkPhysics{false, true, true}>}},
-      {{&SlidingBody::free_motion<BulkPhysics{true, false, false}>,
-        &SlidingBody::free_motion<BulkPhysics{true, false, true}>},
-       {&SlidingBody::free_motion<BulkPhysics{true, true, false}>,
-        &SlidingBody::free_motion<BulkPhysics{true, true, true}>}}};
-  return table[physics.mass_damping][physics.stiffness_damping][physics.numerical_dissipation];
+  static const auto table = free_motion_table(std::make_index_sequence<16>());
+  return table[(physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
+               (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u)];
+}
+
+NodalState SlidingBody::state(bool with_acceleration) const {
+  return {u_.data(), w_.data(), with_acceleration ? a_.data() : nullptr};
 }
 
 void SlidingBody::advance(bool observed) {
-  const double now = static_cast<double>(step_) * time_step_, next = static_cast<double>(step_ + 1) * time_step_;
+  const double now = static_cast<double>(step_) * time_step_,
+               next = static_cast<double>(step_ + 1) * time_step_;
   const bool first = step_ == 0;
-  const StepCoefficients step = first ? first_step(time_step_) : beta2_step(time_step_, scene_.beta2);
+  observed = observed || first;  // the energy at the start is what the ledger counts from
+  const StepCoefficients step =
+      first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
+  const NodalState moving = state(observed || physics_.keeps_acceleration);
 
   u_.end_update();
-  if (observed || first) std::copy_n(u_.data(), kept_.size(), kept_.data());
-  boundary_.remember(state(), force_.data());
+  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
+  boundary_.remember(moving, force_.data());
   if (physics_.keeps_force()) std::swap(force_, previous_force_);
 
   {
     static const LogEvent event("FreeMotion");
     const LogEvent::Scope scope(event);
-    (this->*free_motion_)(step);
+    (this->*(observed ? observed_free_motion_ : free_motion_))(step);
   }
-  if (!loads_.empty()) loads_.apply(now, step, boundary_, state());
-  if (!supports_->empty()) supports_->apply(next, step, boundary_, state());
+  if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
+  if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
   if (scene_.surface) {
     surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
-    const ContactStep contact{step.displacement, step.velocity, surface_travel_, scene_.surface->velocity(now)};
-    std::visit([&](const auto& law) {
-      contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), state());
-    }, first ? start_law_ : law_);
+    const ContactStep contact{step.displacement, step.predictor, surface_travel_,
+                              scene_.surface->velocity(now)};
+    std::visit(
+        [&](const auto& law) {
+          contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
+        },
+        first ? start_law_ : law_);
   }
   u_.begin_update();
 
-  ledger_.add(boundary_, contact_, state(), surface_travel_);
+  ledger_.add(boundary_, contact_, moving, surface_travel_);
   if (physics_.keeps_force())
-    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, state(), force_.data(), first);
+    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(),
+                     first);
+  if (observed) find_velocity(step);
   ++step_;
   if (first) start_energy_ = local_energy().kinetic + local_energy().strain;
+}
+
+void SlidingBody::find_velocity(const StepCoefficients& step) {
+  const double back = step.predictor - step.velocity;  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
+  for (int i = 0; i < model_.mesh.nodes.owned; ++i)
+    for (int axis = 0; axis < 2; ++axis) v_.data()[i][axis] = w_.data()[i][axis] - back * a_.data()[i][axis];
 }
 
 double SlidingBody::surface_velocity() const { return scene_.surface ? scene_.surface->velocity(time()) : 0; }

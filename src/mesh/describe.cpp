@@ -7,7 +7,8 @@
 namespace slipscale {
 
 const Boundary* Mesh::find_boundary(const std::string& name) const {
-  const auto found = std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
+  const auto found =
+      std::find_if(boundaries.begin(), boundaries.end(), [&](const auto& b) { return b.name == name; });
   return found == boundaries.end() ? nullptr : &*found;
 }
 
@@ -29,13 +30,14 @@ double Mesh::area() const {
 }
 
 std::string describe(const Mesh& mesh, const std::vector<std::string>& region_materials) {
-  std::string text = format("mesh %s: %lld nodes, %lld cells, x %g to %g m, y %g to %g m%s\n", mesh.file.c_str(),
-                            static_cast<long long>(mesh.nodes.total), static_cast<long long>(mesh.cells.total),
-                            mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1],
-                            mesh.periodic[0] && mesh.periodic[1] ? ", periodic in x and y"
-                            : mesh.periodic[0]                   ? ", periodic in x"
-                            : mesh.periodic[1]                   ? ", periodic in y"
-                                                                 : "");
+  std::string text =
+      format("mesh %s: %lld nodes, %lld cells, x %g to %g m, y %g to %g m%s\n", mesh.file.c_str(),
+             static_cast<long long>(mesh.nodes.total), static_cast<long long>(mesh.cells.total),
+             mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1],
+             mesh.periodic[0] && mesh.periodic[1] ? ", periodic in x and y"
+             : mesh.periodic[0]                   ? ", periodic in x"
+             : mesh.periodic[1]                   ? ", periodic in y"
+                                                  : "");
   std::vector<std::vector<std::string>> rows{{"name", "tag", "cells/edges", "size", "material"}};
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const Region& region = mesh.regions[r];
@@ -50,9 +52,11 @@ std::string describe(const Mesh& mesh, const std::vector<std::string>& region_ma
   const PartitionReport& parts = mesh.partition;
   rows = {{"rank", "cells", "overlap", "nodes", "ghosts"}};
   for (std::size_t r = 0; r < parts.owned_cells.size(); ++r)
-    rows.push_back({std::to_string(r), std::to_string(parts.owned_cells[r]), std::to_string(parts.overlap_cells[r]),
-                    std::to_string(parts.owned_nodes[r]), std::to_string(parts.ghost_nodes[r])});
-  if (rows.size() > 2) text += table(rows) + format("edge cut %lld\n", static_cast<long long>(parts.edge_cut));
+    rows.push_back({std::to_string(r), std::to_string(parts.owned_cells[r]),
+                    std::to_string(parts.overlap_cells[r]), std::to_string(parts.owned_nodes[r]),
+                    std::to_string(parts.ghost_nodes[r])});
+  if (rows.size() > 2)
+    text += table(rows) + format("edge cut %lld\n", static_cast<long long>(parts.edge_cut));
   return text;
 }
 

@@ -139,9 +139,11 @@ class Extraction {
       if (owned_[ends[0]] || owned_[ends[1]]) boundary.edges.push_back(side(support[0], ends));
     }
     const auto& number = mesh_.nodes.number;
-    std::sort(boundary.edges.begin(), boundary.edges.end(), [&](const BoundaryEdge& a, const BoundaryEdge& b) {
-      return std::pair(number[a.nodes[0]], number[a.nodes[1]]) < std::pair(number[b.nodes[0]], number[b.nodes[1]]);
-    });
+    std::sort(boundary.edges.begin(), boundary.edges.end(),
+              [&](const BoundaryEdge& a, const BoundaryEdge& b) {
+                return std::pair(number[a.nodes[0]], number[a.nodes[1]]) <
+                       std::pair(number[b.nodes[0]], number[b.nodes[1]]);
+              });
     for (const auto& edge : boundary.edges)
       for (int node : edge.nodes)
         if (node < mesh_.nodes.owned) boundary.nodes.push_back(node);

@@ -35,7 +35,8 @@ CellGeometry cell_geometry(DM dm, PetscInt cell) {
     if (closure[2 * k] >= first && closure[2 * k] < last) geometry.vertices.push_back(closure[2 * k]);
   petsc(DMPlexRestoreTransitiveClosure(dm, cell, PETSC_TRUE, &size, &closure));
 
-  // Cell coordinates, not vertex coordinates: on a torus a vertex has one position, a cell at the seam needs two.
+  // Cell coordinates, not vertex coordinates: on a torus a vertex has one position, a cell at the seam needs
+  // two.
   PetscBool by_cell = PETSC_FALSE;
   PetscInt count = 0;
   const PetscScalar* array = nullptr;

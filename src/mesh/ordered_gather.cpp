@@ -15,7 +15,8 @@ OrderedGather::OrderedGather(MPI_Comm comm, const std::vector<PetscInt>& keys) :
   MPI_Gather(&mine, 1, MPI_INT, counts_.data(), 1, MPI_INT, 0, comm);
   if (rank == 0) std::partial_sum(counts_.begin(), counts_.end() - 1, starts_.begin() + 1);
   std::vector<PetscInt> arriving(rank == 0 ? static_cast<std::size_t>(starts_.back() + counts_.back()) : 0);
-  MPI_Gatherv(keys.data(), mine, MPIU_INT, arriving.data(), counts_.data(), starts_.data(), MPIU_INT, 0, comm);
+  MPI_Gatherv(keys.data(), mine, MPIU_INT, arriving.data(), counts_.data(), starts_.data(), MPIU_INT, 0,
+              comm);
 
   std::vector<int> order(arriving.size());
   std::iota(order.begin(), order.end(), 0);

@@ -25,7 +25,8 @@ std::vector<PetscInt> metis_parts(DM dm, int ranks) {
   const auto method = ranks <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
   const int code = method(&count, &constraints, xadj.data(), adjncy.data(), nullptr, nullptr, nullptr, &parts,
                           nullptr, nullptr, options, &cut, part.data());
-  if (code != METIS_OK) throw LibraryError("METIS could not partition the mesh (code " + std::to_string(code) + ")");
+  if (code != METIS_OK)
+    throw LibraryError("METIS could not partition the mesh (code " + std::to_string(code) + ")");
   return {part.begin(), part.end()};
 }
 

@@ -35,7 +35,8 @@ GmshFile head_of(MPI_Comm comm, const std::string& path) {
   if (rank == 0) {
     file = mesh_stages::scan_gmsh(path, fault);
     if (fault.empty() && file.version < 4 && file.has_periodic_section)
-      fault = "mesh '" + path + "' is periodic but written as MSH 2, which loses periodicity; use gmsh -format msh41";
+      fault = "mesh '" + path +
+              "' is periodic but written as MSH 2, which loses periodicity; use gmsh -format msh41";
     if (fault.empty()) fault = mesh_stages::fault_in_names(path, file.names);
   }
   throw_together(comm, fault);

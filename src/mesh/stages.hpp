@@ -25,12 +25,12 @@ Vector2 vertex_position(DM dm, PetscInt vertex);
 /// The whole mesh on rank 0: what must be known before it is cut.
 struct Whole {
   OwnedDM dm;
-  std::vector<Region> regions;        ///< complete on every rank
-  std::vector<Boundary> boundaries;   ///< likewise, without edges and nodes
+  std::vector<Region> regions;       ///< complete on every rank
+  std::vector<Boundary> boundaries;  ///< likewise, without edges and nodes
   std::array<bool, 2> periodic{};
   Vector2 lower{}, upper{};
   double shortest_edge = 0;
-  std::vector<PetscInt> number;       ///< rank 0: whole-mesh number of each vertex and cell, by plex point
+  std::vector<PetscInt> number;  ///< rank 0: whole-mesh number of each vertex and cell, by plex point
   PetscInt node_count = 0, cell_count = 0;
 };
 

@@ -66,8 +66,9 @@ bool is_localized(DM dm) {
   return localized;
 }
 
-/// Gives every vertex the lowest of the positions at which its cells see it, x first. Elsewhere than on a torus that is
-/// its position already; on one, PETSc's choice varies along the seam and refinement leaves midpoints there off it.
+/// Gives every vertex the lowest of the positions at which its cells see it, x first. Elsewhere than on a
+/// torus that is its position already; on one, PETSc's choice varies along the seam and refinement leaves
+/// midpoints there off it.
 void set_positions(DM dm) {
   PetscInt begin = 0, end = 0;
   petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));

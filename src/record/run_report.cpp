@@ -73,7 +73,8 @@ void Recorder::write_run(const Options& options) const {
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
     yaml.text("mesh_checksum", "fnv1a:" + hexadecimal(mesh.checksum), "of the mesh file");
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
-    yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m").number("block_height", mesh.upper[1] - mesh.lower[1], "m");
+    yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m")
+        .number("block_height", mesh.upper[1] - mesh.lower[1], "m");
     yaml.number("largest_frequency", time_.frequency.sharp, "1/s, Lanczos");
     yaml.number("largest_frequency_bound", time_.frequency.safe, "1/s, largest element");
     yaml.exact("stable_step", time_.limit, "s").exact("step", time_.step, "s").integer("steps", time_.count);

@@ -57,8 +57,9 @@ std::string option_value(const std::string& typed) {
   double value = 0;
   const char* const end = typed.data() + typed.size();
   const auto parsed = std::from_chars(typed.data(), end, value);
-  return !typed.empty() && parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value) ? yaml_number(typed)
-                                                                                                : typed;
+  return !typed.empty() && parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value)
+             ? yaml_number(typed)
+             : typed;
 }
 
 /// The fewest digits that are read back as the same double.

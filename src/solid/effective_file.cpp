@@ -26,21 +26,25 @@ class Database {
 
 EffectiveFile read_effective_file(const std::string& path, const std::string& option) {
   if (!std::ifstream(path))
-    throw UserError("-" + option + ": cannot read '" + path + "'; give the effective.yaml of a homogenised material");
+    throw UserError("-" + option + ": cannot read '" + path +
+                    "'; give the effective.yaml of a homogenised material");
   Database database;
   if (PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, database, path.c_str(), PETSC_TRUE))
-    throw UserError("-" + option + ": '" + path + "' is not valid YAML (" + take_petsc_message() + "); write it again");
+    throw UserError("-" + option + ": '" + path + "' is not valid YAML (" + take_petsc_message() +
+                    "); write it again");
   EffectiveFile file;
   file.stiffness.resize(7);
   PetscInt count = 7;
   PetscBool has_stiffness = PETSC_FALSE, has_density = PETSC_FALSE;
-  const PetscErrorCode bad_list =
-      PetscOptionsGetRealArray(database, nullptr, "-stiffness", file.stiffness.data(), &count, &has_stiffness);
-  const PetscErrorCode bad_density = PetscOptionsGetReal(database, nullptr, "-density", &file.density, &has_density);
+  const PetscErrorCode bad_list = PetscOptionsGetRealArray(database, nullptr, "-stiffness",
+                                                           file.stiffness.data(), &count, &has_stiffness);
+  const PetscErrorCode bad_density =
+      PetscOptionsGetReal(database, nullptr, "-density", &file.density, &has_density);
   file.stiffness.resize(static_cast<std::size_t>(count));
   if (bad_list || bad_density || !has_stiffness || !has_density || !(file.density > 0))
-    throw UserError("-" + option + ": '" + path +
-                    "' must hold 'stiffness: [c11, c22, c12, c66, c16, c26]' in Pa and 'density:' > 0 in kg/m3");
+    throw UserError(
+        "-" + option + ": '" + path +
+        "' must hold 'stiffness: [c11, c22, c12, c66, c16, c26]' in Pa and 'density:' > 0 in kg/m3");
   return file;
 }
 

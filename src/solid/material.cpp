@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effective_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
-#include "effective_file.hpp"
 
 namespace slipscale {
 namespace {
@@ -14,18 +14,19 @@ const char* const keys[] = {"young", "poisson", "stiffness", "density", "file"};
 
 Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
   if (c.size() != 6)
-    throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " + std::to_string(c.size()) +
-                    " are given");
+    throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " +
+                    std::to_string(c.size()) + " are given");
   Eigen::Matrix3d stiffness;
   stiffness << c[0], c[2], c[4], c[2], c[1], c[5], c[4], c[5], c[3];
   if (Eigen::LLT<Eigen::Matrix3d>(stiffness).info() != Eigen::Success)
-    throw UserError(where + " is not positive definite; check the order c11,c22,c12,c66,c16,c26 and the signs");
+    throw UserError(where +
+                    " is not positive definite; check the order c11,c22,c12,c66,c16,c26 and the signs");
   return stiffness;
 }
 
 std::string six_numbers(const Eigen::Matrix3d& c) {
-  return format("C11 %.4g, C22 %.4g, C12 %.4g, C66 %.4g, C16 %.3g, C26 %.3g GPa", c(0, 0) * 1e-9, c(1, 1) * 1e-9,
-                c(0, 1) * 1e-9, c(2, 2) * 1e-9, c(0, 2) * 1e-9, c(1, 2) * 1e-9);
+  return format("C11 %.4g, C22 %.4g, C12 %.4g, C66 %.4g, C16 %.3g, C26 %.3g GPa", c(0, 0) * 1e-9,
+                c(1, 1) * 1e-9, c(0, 1) * 1e-9, c(2, 2) * 1e-9, c(0, 2) * 1e-9, c(1, 2) * 1e-9);
 }
 
 Material from_file(const std::string& option, const std::string& path) {
@@ -33,7 +34,8 @@ Material from_file(const std::string& option, const std::string& path) {
   Material material;
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
-  material.description = six_numbers(material.stiffness) + format(", %.4g kg/m3 (%s)", file.density, path.c_str());
+  material.description =
+      six_numbers(material.stiffness) + format(", %.4g kg/m3 (%s)", file.density, path.c_str());
   return material;
 }
 
@@ -42,7 +44,8 @@ Material read_one(const Options& options, const std::string& prefix) {
   if (const auto path = options.find_text(prefix + "file")) {
     for (const char* key : {"young", "poisson", "stiffness", "density"})
       if (options.given(prefix + key))
-        throw UserError("-" + prefix + key + " contradicts -" + prefix + "file, which already sets it; give one of them");
+        throw UserError("-" + prefix + key + " contradicts -" + prefix +
+                        "file, which already sets it; give one of them");
     return from_file(prefix + "file", *path);
   }
   Material material;
@@ -84,7 +87,8 @@ WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
   direction << nx, 0, 0, ny, ny, nx;
   const Eigen::Matrix2d acoustic = direction.transpose() * material.stiffness * direction;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(acoustic, Eigen::EigenvaluesOnly);
-  return {std::sqrt(solver.eigenvalues()[1] / material.density), std::sqrt(solver.eigenvalues()[0] / material.density)};
+  return {std::sqrt(solver.eigenvalues()[1] / material.density),
+          std::sqrt(solver.eigenvalues()[0] / material.density)};
 }
 
 Schema material_schema() {
@@ -116,8 +120,8 @@ std::vector<Material> read_materials(const Options& options, const std::vector<s
     else if (shared)
       materials.push_back(read_one(options, "material_all_"));
     else
-      throw UserError("region '" + region + "' has no material; give -" + own + "young, -" + own + "poisson and -" +
-                      own + "density, or one for every region under material_all_");
+      throw UserError("region '" + region + "' has no material; give -" + own + "young, -" + own +
+                      "poisson and -" + own + "density, or one for every region under material_all_");
   }
   return materials;
 }

@@ -96,7 +96,8 @@ void PairStiffness<Scalar>::store_blocks(const Sums& sums) {
       blocks_.push_back({static_cast<Scalar>(sum.xx), static_cast<Scalar>(0.5 * (sum.xy + sum.yx)),
                          static_cast<Scalar>(sum.yy)});
       const double skew = 0.5 * (sum.xy - sum.yx);
-      if (std::abs(skew) > nothing * sum.size) skews_.push_back({row, high_[pair], static_cast<Scalar>(skew)});
+      if (std::abs(skew) > nothing * sum.size)
+        skews_.push_back({row, high_[pair], static_cast<Scalar>(skew)});
     }
   skews_.push_back({-1, -1, 0});
 }

@@ -50,7 +50,7 @@ TEST(ContactNodes, ClosedNodeEndsOnTheSurface) {
     EXPECT_NEAR(node.contact.force[0][1], depth * push, 4 * epsilon * clearance * push);
     EXPECT_EQ(node.contact.pressure[0], node.contact.force[0][1] / length);
     EXPECT_DOUBLE_EQ(node.a[1], node.contact.force[0][1] / mass);
-    EXPECT_DOUBLE_EQ(node.v[1], step.velocity * node.a[1]);
+    EXPECT_DOUBLE_EQ(node.v[1], step.predictor * node.a[1]);
     EXPECT_EQ(node.contact.status[0], ContactStatus::slip);
     EXPECT_EQ(node.u[0], 0.1);
   }
@@ -122,7 +122,7 @@ TEST(ContactNodes, HeldNodeThatDoesNotSlipCarriesTheReaction) {
   }
 }
 
-/// `rate: slip` sees V minus the velocity the node came with: v_n without what a_n added to it.
+/// `rate: slip` sees V minus the predictor w_n the node came with: w_{n+1} without what a_n added to it.
 TEST(ContactNodes, SlipRateIsThatBeforeTheForcesOfTheStep) {
   Node node;
   node.u[1] = -clearance - 1e-4;
@@ -130,5 +130,5 @@ TEST(ContactNodes, SlipRateIsThatBeforeTheForcesOfTheStep) {
   node.a[0] = 3;
   double seen = 0;
   node.enforce(Spy{&seen});
-  EXPECT_DOUBLE_EQ(seen, step.surface_speed - (0.05 - step.velocity * 3));
+  EXPECT_DOUBLE_EQ(seen, step.surface_speed - (0.05 - step.predictor * 3));
 }

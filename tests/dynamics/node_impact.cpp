@@ -19,21 +19,18 @@ struct FallingNode {
   double advance() {
     const StepCoefficients step = beta2_step(dt, beta2);
     const Vector2 before = u;
-    const double w = v[1] + step.predictor * a[1];
-    a = {0, 0};
-    v[1] = w;
-    u[1] += dt * w;
-    contact.enforce(Frictionless{}, {step.displacement, step.velocity, 0, 0}, &before, &support,
-                    {&u, &v, &a});
+    u[1] += dt * w[1];
+    contact.enforce(Frictionless{}, {step.displacement, step.predictor, 0, 0}, &before, &support,
+                    {&u, &w, nullptr});
     return contact.force[0][1] * dt;
   }
 
   /// The velocity with which the node goes on: the predictor of the next step.
-  double velocity() const { return v[1] + (1 - beta2) * dt * a[1]; }
+  double velocity() const { return w[1]; }
 
   double beta2;
   ContactNodes contact;
-  Vector2 u{0, 0}, v{0, -speed}, a{0, 0}, support{0, 0};
+  Vector2 u{0, 0}, w{0, -speed}, support{0, 0};
 };
 
 }  // namespace

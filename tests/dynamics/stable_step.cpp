@@ -9,18 +9,17 @@ using namespace slipscale;
 
 namespace {
 
-/// One step of one oscillator of frequency ω as the step loop makes it. State (u_n, v_{n−1}, a_{n−1},
-/// u_{n−1}).
+/// One step of one oscillator of frequency ω as the step loop makes it. State (u_n, w_n, a_{n−1}, u_{n−1}).
 Eigen::Vector4d advance(const Eigen::Vector4d& state, double omega, double step, double beta2,
                         const Damping& damping) {
   const double inverse_mass = 1;
   const Vector2 force{omega * omega * state[0], 0}, previous{omega * omega * state[3], 0};
-  Vector2 u{state[0], 0}, v{state[1], 0}, a{state[2], 0};
+  Vector2 u{state[0], 0}, w{state[1], 0}, a{state[2], 0};
   BulkSums sums;
-  constexpr BulkPhysics everything{true, true, true};
-  FreeMotion<everything>({&inverse_mass, &force, &previous, &u, &v, &a}, beta2_step(step, beta2), damping,
+  constexpr BulkPhysics everything{true, true, true, true};
+  FreeMotion<everything>({&inverse_mass, &force, &previous, &u, &w, &a}, beta2_step(step, beta2), damping,
                          {0, 0}, sums)(0, 1);
-  return {u[0], v[0], a[0], state[0]};
+  return {u[0], w[0], a[0], state[0]};
 }
 
 double spectral_radius(double omega, double step, double beta2, const Damping& damping) {

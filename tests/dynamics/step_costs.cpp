@@ -9,8 +9,9 @@
 using namespace slipscale;
 using namespace slipscale::testing_support;
 
-// The step loop promises one halo exchange, no reduction and no allocation. All three are counted here: allocations by
-// replacing the global operator new, collectives by MPI's profiling interface, exchanges by PETSc's event log.
+// The step loop promises one halo exchange, no reduction and no allocation. All three are counted here:
+// allocations by replacing the global operator new, collectives by MPI's profiling interface, exchanges by
+// PETSc's event log.
 
 namespace {
 

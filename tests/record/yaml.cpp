@@ -34,9 +34,17 @@ class Scene {
 
 }  // namespace
 
+/// YAML 1.1, Python's, takes 30e9 and 1e-5 for texts.
+TEST(RunYaml, SpellsNumbersSoThatYamlSeesNumbers) {
+  const std::string text =
+      run_yaml({{"a", "30e9"}, {"b", "1e-5"}, {"c", "2.5E3"}, {"d", "7"}, {"e", "1e5x"}}, [](Yaml&) {});
+  for (const char* line : {"a: 30.0e+9", "b: 1.0e-5", "c: 2.5e+3", "d: 7", "e: 1e5x"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " is not in\n" << text;
+}
+
 TEST(RunYaml, IsASceneAgain) {
   const std::map<std::string, std::string> options = {
-      {"boundary_top_pressure", "1e6"},
+      {"boundary_top_pressure", "1.0e+6"},
       {"friction_coefficient", "0.3"},
       {"friction_law", "none"},
       {"history_points", "0.1,0.2,0.3,0.4"},
@@ -48,7 +56,8 @@ TEST(RunYaml, IsASceneAgain) {
       {"surface_speed", "-2"},
       {"verbose", "true"},
   };
-  const Scene scene(run_yaml(options, [](Yaml& yaml) { yaml.text("version", "0.1.0").exact("stable_step", 1.5e-9, "s"); }));
+  const Scene scene(
+      run_yaml(options, [](Yaml& yaml) { yaml.text("version", "0.1.0").exact("stable_step", 1.5e-9, "s"); }));
   for (const auto& [name, value] : options) {
     if (name.find(' ') == std::string::npos && !value.empty()) {
       EXPECT_EQ(scene.value(name), value);

@@ -50,8 +50,7 @@ class Writer {
     for (int j = 0; j < b.ny; ++j)
       for (int i = 0; i < b.nx; ++i) {
         const int a = node(i, j), c = node(i + 1, j), d = node(i + 1, j + 1), e = node(i, j + 1);
-        const int region =
-            b.region(b.left + b.width * (i + 0.5) / b.nx, b.height * (j + 0.5) / b.ny);
+        const int region = b.region(b.left + b.width * (i + 0.5) / b.nx, b.height * (j + 0.5) / b.ny);
         two_regions = two_regions || region == 2;
         const bool quad = b.shape == Shape::quadrilaterals || (b.shape == Shape::mixed && (i + j) % 2 == 0);
         if (quad) {
@@ -67,7 +66,8 @@ class Writer {
   }
 
   void names() {
-    out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" << (two_regions ? 6 : 5) << '\n'
+    out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n"
+        << (two_regions ? 6 : 5) << '\n'
         << "1 1 \"bottom\"\n1 2 \"right\"\n1 3 \"top\"\n1 4 \"left\"\n2 1 \"matrix\"\n";
     if (two_regions) out << "2 2 \"inclusion\"\n";
     out << "$EndPhysicalNames\n";
@@ -76,8 +76,8 @@ class Writer {
   void entities() {
     const double x0 = b.left, x1 = b.left + b.width, y1 = b.height;
     out << "$Entities\n4 4 " << (two_regions ? 2 : 1) << " 0\n";
-    out << "1 " << x0 << " 0 0 0\n2 " << x1 << " 0 0 0\n3 " << x1 << ' ' << y1 << " 0 0\n4 " << x0 << ' ' << y1
-        << " 0 0\n";
+    out << "1 " << x0 << " 0 0 0\n2 " << x1 << " 0 0 0\n3 " << x1 << ' ' << y1 << " 0 0\n4 " << x0 << ' '
+        << y1 << " 0 0\n";
     out << "1 " << x0 << " 0 0 " << x1 << " 0 0 1 1 2 1 -2\n";
     out << "2 " << x1 << " 0 0 " << x1 << ' ' << y1 << " 0 1 2 2 2 -3\n";
     out << "3 " << x0 << ' ' << y1 << " 0 " << x1 << ' ' << y1 << " 0 1 3 2 3 -4\n";

@@ -23,14 +23,16 @@ Reading scene_r_at(double spacing, double step, double time, Partitioner partiti
   const long last = std::lround(time / step);
   for (long n = 0; n <= last; ++n) body.advance(n == last);
   const Vector2 m{2.5e-3, 0};
-  const double now = value_near(mesh, body.displacement_n(), m, 0), next = value_near(mesh, body.displacement(), m, 0);
+  const double now = value_near(mesh, body.displacement_n(), m, 0),
+               next = value_near(mesh, body.displacement(), m, 0);
   const Vector2 top = support_force(body, "top");
   return {now, (next - now) / step, top[0], top[1]};
 }
 
 }  // namespace
 
-/// Science, section 8, before saturation; figures of a separate serial prototype, printed there with 10 digits.
+/// Science, section 8, before saturation; figures of a separate serial prototype, printed there with 10
+/// digits.
 TEST(SceneR, AgreesWithTheReferenceAtTenMicroseconds) {
   const Reading r = scene_r_at(0.25e-3, 5e-9, 10e-6);
   EXPECT_NEAR(r.u / 3.716186611e-7, 1, 1e-6);

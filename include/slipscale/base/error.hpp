@@ -15,8 +15,8 @@ class UserError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The run cannot go on (a state that is not finite, a full disk): one sentence with the step and the place. Must be
-/// thrown on every rank, like `UserError`; exit code 1.
+/// The run cannot go on (a state that is not finite, a full disk): one sentence with the step and the place.
+/// Must be thrown on every rank, like `UserError`; exit code 1.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

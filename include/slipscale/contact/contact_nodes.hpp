@@ -9,23 +9,24 @@ namespace slipscale {
 
 /// What contact needs to know of the step from t_n to t_{n+1}.
 struct ContactStep {
-  double displacement = 0;     ///< c: displacement that unit acceleration adds over the step, s²
-  double velocity = 0;         ///< velocity that unit acceleration adds, s
-  double surface_travel = 0;   ///< path of the surface over the step, m
-  double surface_speed = 0;    ///< V at t_n, m/s
+  double displacement = 0;    ///< c: displacement that unit acceleration adds over the step, s²
+  double predictor = 0;       ///< what unit acceleration adds to the predictor, s
+  double surface_travel = 0;  ///< path of the surface over the step, m
+  double surface_speed = 0;   ///< V at t_n, m/s
 };
 
 /// The state arrays of a rank that contact reads and changes, by local node.
 struct NodalState {
   Vector2* displacement;  ///< in: û, the prediction of u_{n+1} without contact; m
-  Vector2* velocity;      ///< v_n, m/s
-  Vector2* acceleration;  ///< a_n, m/s²
+  Vector2* predictor;     ///< w_{n+1}, the velocity the next step starts with, m/s
+  Vector2* acceleration;  ///< a_n, m/s²; null when the step does not keep it
 };
 
 /// The owned nodes of this rank that can touch the rigid surface, in compact arrays, ascending node number.
 ///
-/// Forward-increment Lagrange multipliers (Carpenter, Taylor, Katona, IJNME 32 (1991) 103): the multiplier at t_n
-/// enforces the constraint at t_{n+1}. With lumped mass and a rigid plane the nodes do not see one another.
+/// Forward-increment Lagrange multipliers (Carpenter, Taylor, Katona, IJNME 32 (1991) 103): the multiplier at
+/// t_n enforces the constraint at t_{n+1}. With lumped mass and a rigid plane the nodes do not see one
+/// another.
 class ContactNodes {
  public:
   /// `slot` is where a node stands in the arrays `before` and `support` below; `held`: its x is prescribed.
@@ -33,10 +34,12 @@ class ContactNodes {
   void start_memory(double traction, double pressure);  ///< at t = 0: a body that already slides, Pa
 
   /// Signorini and friction at every node: 0 ≤ λ ⟂ gap_{n+1} ≥ 0, then the law. `before` [slots] is u_n.
-  /// Adds the contact force to acceleration, velocity and displacement. At a held node the motion along x stays and
-  /// friction is taken from the reaction `support` [slots] of what holds it.
+  /// Adds the contact force to acceleration, predictor and displacement; a law that asks the slip rate needs
+  /// the first. At a held node the motion along x stays and friction is taken from the reaction `support`
+  /// [slots] of what holds it.
   template <class Law>
-  void enforce(const Law& law, const ContactStep& step, const Vector2* before, Vector2* support, NodalState state);
+  void enforce(const Law& law, const ContactStep& step, const Vector2* before, Vector2* support,
+               NodalState state);
 
   int size() const { return static_cast<int>(node.size()); }
 
@@ -47,9 +50,9 @@ class ContactNodes {
   std::vector<char> held;
   std::vector<FrictionMemory> memory;
   // At t_n, from the last `enforce`:
-  std::vector<Vector2> force;            ///< (τA, λ), N/m
-  std::vector<double> traction;          ///< τ on the body along +x, Pa
-  std::vector<double> pressure;          ///< p = λ/A ≥ 0, Pa
+  std::vector<Vector2> force;    ///< (τA, λ), N/m
+  std::vector<double> traction;  ///< τ on the body along +x, Pa
+  std::vector<double> pressure;  ///< p = λ/A ≥ 0, Pa
   std::vector<ContactStatus> status;
 };
 
@@ -72,7 +75,8 @@ void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector
     const double missing = before[slot[k]][0] + step.surface_travel - u[0];
     FrictionDemand demand{missing * m / (step.displacement * length), normal / length, 0};
     if constexpr (Law::uses_slip_rate)
-      demand.slip_rate = step.surface_speed - (state.velocity[i][0] - step.velocity * state.acceleration[i][0]);
+      demand.slip_rate =
+          step.surface_speed - (state.predictor[i][0] - step.predictor * state.acceleration[i][0]);
     // A held node that does not slip leaves its share undetermined: the surface carries what friction can.
     if (held[k] && missing == 0) demand.trial = support[slot[k]][0] / length;
     const Friction friction = law(demand, memory[k]);
@@ -87,8 +91,8 @@ void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector
       push[0] = 0;
     }
     for (int axis = 0; axis < 2; ++axis) {
-      state.acceleration[i][axis] += push[axis];
-      state.velocity[i][axis] += step.velocity * push[axis];
+      if (state.acceleration) state.acceleration[i][axis] += push[axis];
+      state.predictor[i][axis] += step.predictor * push[axis];
       u[axis] += step.displacement * push[axis];
     }
   }

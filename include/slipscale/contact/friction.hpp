@@ -8,7 +8,8 @@ enum class ContactStatus : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
 /// What a contact node remembers from one step to the next; zero when it is open.
 struct FrictionMemory {
-  double traction = 0;  ///< tangential traction of the last step, or the stored strength (regularised threshold), Pa
+  double traction =
+      0;  ///< tangential traction of the last step, or the stored strength (regularised threshold), Pa
   double pressure = 0;  ///< pressure of the last step, Pa
 };
 
@@ -25,13 +26,15 @@ struct FrictionDemand {
   double slip_rate;  ///< of the surface relative to the body, m/s; read only where `uses_slip_rate`
 };
 
-/// Exact update over one step of ṡ = −(s − μp)/T for a pressure that varies linearly (science: two weights, both
-/// ≥ 0, so the strength never leaves the range of what it relaxes to): s = keep s + μ (now p_n + before p_{n−1}).
+/// Exact update over one step of ṡ = −(s − μp)/T for a pressure that varies linearly (science: two weights,
+/// both ≥ 0, so the strength never leaves the range of what it relaxes to): s = keep s + μ (now p_n + before
+/// p_{n−1}).
 struct Relaxation {
   double keep = 0, now = 1, before = 0;
 };
 
-/// The weights for x = Δt/T ≥ 0: e = exp(−x), 1 − g and g − e with g = (1 − e)/x. Infinite x, T = 0, is Coulomb.
+/// The weights for x = Δt/T ≥ 0: e = exp(−x), 1 − g and g − e with g = (1 − e)/x. Infinite x, T = 0, is
+/// Coulomb.
 Relaxation relaxation(double x);
 
 struct Frictionless {
@@ -45,8 +48,8 @@ struct Coulomb {
   Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
 };
 
-/// Simplified Prakash-Clifton law (the paper, section on friction; Cochard and Rice 2000): in slip the traction
-/// relaxes to μp in the time T instead of jumping. `rate: surface`: T = L*/|V| is one constant.
+/// Simplified Prakash-Clifton law (the paper, section on friction; Cochard and Rice 2000): in slip the
+/// traction relaxes to μp in the time T instead of jumping. `rate: surface`: T = L*/|V| is one constant.
 /// Threshold `instantaneous`: sticks while |τ*| ≤ μp(t), the memory is the traction.
 struct RegularizedInstantaneous {
   static constexpr bool uses_slip_rate = false;
@@ -55,7 +58,8 @@ struct RegularizedInstantaneous {
   Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
 };
 
-/// Threshold `regularized`: a stored strength relaxes to μp always, stick or slip, and |τ*| is compared with it.
+/// Threshold `regularized`: a stored strength relaxes to μp always, stick or slip, and |τ*| is compared with
+/// it.
 struct RegularizedStrength {
   static constexpr bool uses_slip_rate = false;
   double coefficient;

@@ -15,12 +15,12 @@ using FrictionLaw = std::variant<Frictionless, Coulomb, RegularizedInstantaneous
 /// What the user asks of friction; independent of the time step.
 struct FrictionChoice {
   enum class Law { none, coulomb, regularized } law = Law::none;
-  double coefficient = 0;       ///< μ
-  bool by_slip_rate = false;    ///< `rate: slip`
-  bool stored_strength = false; ///< `threshold: regularized`
-  double time = 0;              ///< T, s (`rate: surface`)
-  double length = 0;            ///< L, m (`rate: slip`)
-  double rate_reference = 0;    ///< V*, m/s (`rate: slip`)
+  double coefficient = 0;        ///< μ
+  bool by_slip_rate = false;     ///< `rate: slip`
+  bool stored_strength = false;  ///< `threshold: regularized`
+  double time = 0;               ///< T, s (`rate: surface`)
+  double length = 0;             ///< L, m (`rate: slip`)
+  double rate_reference = 0;     ///< V*, m/s (`rate: slip`)
 };
 
 Schema friction_schema();
@@ -29,8 +29,8 @@ Schema friction_schema();
 /// contradictory constant, and for `rate: surface` with V = 0 when T itself is not given.
 FrictionChoice read_friction(const Options& options, const Surface& surface);
 
-/// The law where `time_step` [s] has passed since the memory was kept; 0 answers the memory itself. Without a time or
-/// length to relax over it is Coulomb's.
+/// The law where `time_step` [s] has passed since the memory was kept; 0 answers the memory itself. Without a
+/// time or length to relax over it is Coulomb's.
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step);
 
 std::string describe(const FrictionChoice& choice);

@@ -9,8 +9,9 @@
 
 namespace slipscale {
 
-/// The owned nodes on the boundaries that carry a condition, meet the surface or are measured, in compact arrays.
-/// A node's place in them is its slot. Whatever acts on the body from outside acts here, one node at a time.
+/// The owned nodes on the boundaries that carry a condition, meet the surface or are measured, in compact
+/// arrays. A node's place in them is its slot. Whatever acts on the body from outside acts here, one node at
+/// a time.
 class BoundaryNodes {
  public:
   BoundaryNodes(const Model& model, const std::vector<std::string>& boundaries);
@@ -18,23 +19,25 @@ class BoundaryNodes {
   int size() const { return static_cast<int>(node.size()); }
   int slot_of(int local_node) const;  ///< −1 when the node is not among them
 
-  /// Before the step: keeps u_n, u_n − u_{n−1}, a_{n−1} and K u_{n−1}, which the step overwrites.
+  /// Before the step: keeps u_n, u_n − u_{n−1}, w_n, K u_{n−1} and, where the state has it, a_{n−1}.
   void remember(const NodalState& state, const Vector2* previous_force);
 
-  std::vector<int> node;               ///< local node, ascending
-  std::vector<double> mass;            ///< kg/m
-  std::vector<Vector2> displacement;   ///< u_n, m
-  std::vector<Vector2> past_increment; ///< u_n − u_{n−1}, m
-  std::vector<Vector2> acceleration;   ///< a_{n−1}, m/s²
-  std::vector<Vector2> internal;       ///< K u_{n−1}, N/m
+  std::vector<int> node;                ///< local node, ascending
+  std::vector<double> mass;             ///< kg/m
+  std::vector<Vector2> displacement;    ///< u_n, m
+  std::vector<Vector2> past_increment;  ///< u_n − u_{n−1}, m
+  std::vector<Vector2> predictor;       ///< w_n, m/s
+  std::vector<Vector2> acceleration;    ///< a_{n−1}, m/s²
+  std::vector<Vector2> internal;        ///< K u_{n−1}, N/m
   // At t_n, N/m:
   std::vector<Vector2> load, support;
 };
 
-/// Adds force/mass to the acceleration of a node and what follows from it over the step.
-inline void push(const NodalState& state, const StepCoefficients& step, int node, int axis, double acceleration) {
-  state.acceleration[node][axis] += acceleration;
-  state.velocity[node][axis] += step.velocity * acceleration;
+/// Adds to the acceleration of a node, and what follows from it over the step.
+inline void push(const NodalState& state, const StepCoefficients& step, int node, int axis,
+                 double acceleration) {
+  if (state.acceleration) state.acceleration[node][axis] += acceleration;
+  state.predictor[node][axis] += step.predictor * acceleration;
   state.displacement[node][axis] += step.displacement * acceleration;
 }
 
@@ -59,13 +62,15 @@ class Loads {
 /// Prescribed displacements: they fix a_n so that u_{n+1} is the prescribed one, and the reaction follows.
 class Supports {
  public:
-  /// Throws UserError when two boundaries prescribe the same component of a shared node differently. Collective.
+  /// Throws UserError when two boundaries prescribe the same component of a shared node differently.
+  /// Collective.
   Supports(MPI_Comm comm, const Mesh& mesh, const std::vector<BoundaryCondition>& conditions,
            const BoundaryNodes& nodes, const Vector2* initial_displacement);
   bool empty() const { return entries_.empty(); }
   bool prescribes(int slot, int axis) const;
   /// Imposes ū(next_time); reactions go into `nodes.support`.
-  void apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes, const NodalState& state) const;
+  void apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes,
+             const NodalState& state) const;
 
  private:
   struct Entry {

@@ -19,12 +19,16 @@ struct BulkArrays {
   const double* inverse_mass;     ///< m/kg
   const Vector2* force;           ///< K u_n, N/m
   const Vector2* previous_force;  ///< K u_{n−1}, N/m; read only where the physics needs it
-  Vector2 *displacement, *velocity, *acceleration;
+  Vector2* displacement;          ///< u, m
+  Vector2* predictor;             ///< w, m/s
+  Vector2* acceleration;          ///< a, m/s²; touched only where the physics keeps it
 };
 
 /// The bulk physics that a scene can have; a scene without it does not pay for it.
 struct BulkPhysics {
   bool mass_damping = false, stiffness_damping = false, numerical_dissipation = false;
+  bool keeps_acceleration =
+      false;  ///< for an observed step, for the ledger when β2 > ½, for a law that asks the slip rate
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
@@ -48,37 +52,34 @@ class FreeMotion {
     const StepCoefficients step = step_;
     const Lanes gravity = gravity_;
     const double lag = lag_, mass_damping = mass_damping_;
-    // u_n − u_{n−1} = Δt v_{n−1} + ½Δt² a_{n−1} holds for every β2.
-    const double half = 0.5 * step.time_step * step.time_step;
+    // u_n − u_{n−1} = Δt w_n + (β2 − ½) Δt² a_{n−1}
+    const double drift = step.displacement - step.time_step * step.time_step;
     Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
     for (int i = begin; i < end; ++i) {
-      const Lanes u = load(arrays.displacement[i]), v = load(arrays.velocity[i]),
-                  a = load(arrays.acceleration[i]);
-      const Lanes internal = load(arrays.force[i]);
+      const Lanes w = load(arrays.predictor[i]), internal = load(arrays.force[i]);
       const double inverse_mass = arrays.inverse_mass[i];
-      const Lanes w = v + step.predictor * a;
       Lanes resistance = internal;
       if constexpr (physics.stiffness_damping)
         resistance += lag * (internal - load(arrays.previous_force[i]));
       if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
-      const Lanes new_a = gravity - resistance * inverse_mass;
-      const Lanes new_v = w + step.velocity * new_a;
+      const Lanes a = gravity - resistance * inverse_mass;
+      const Lanes increment = step.time_step * w + step.displacement * a;
       if constexpr (physics.keeps_force()) {
-        const Lanes past = step.time_step * v + half * a;
-        const Lanes next = step.time_step * new_v + half * new_a;
-        const Lanes change = new_a - a;
+        Lanes past = step.time_step * w;
         if constexpr (physics.numerical_dissipation) {
+          const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
+          past += drift * old_a;
           increment_force += past * (internal - load(arrays.previous_force[i]));
           increment_inertia += change * change / inverse_mass;
         }
         if constexpr (physics.stiffness_damping || physics.mass_damping) {
           damping_past += (internal - resistance) * past;
-          damping_next += (internal - resistance) * next;
+          damping_next += (internal - resistance) * increment;
         }
       }
-      store(arrays.displacement[i], u + (step.time_step * w + step.displacement * new_a));
-      store(arrays.velocity[i], new_v);
-      store(arrays.acceleration[i], new_a);
+      store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
+      store(arrays.predictor[i], w + step.predictor * a);
+      if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
     }
     if constexpr (physics.keeps_force()) {
       sums_.increment_force += increment_force[0] + increment_force[1];

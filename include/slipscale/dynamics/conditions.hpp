@@ -41,7 +41,8 @@ struct InitialState {
 Schema initial_schema();
 InitialState read_initial(const Options& options);
 
-/// Sets u [all local nodes] and v [owned nodes]. Throws UserError for a uniform state in a body that is not uniform.
+/// Sets u [all local nodes] and v [owned nodes]. Throws UserError for a uniform state in a body that is not
+/// uniform.
 void set_initial(const InitialState& initial, const Mesh& mesh, const std::vector<Material>& materials,
                  Vector2* displacement, Vector2* velocity);
 

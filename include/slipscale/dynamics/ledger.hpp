@@ -40,20 +40,22 @@ class Work {
 /// The exact discrete energy balance of the β2 scheme: with Δ = new − old and f all forces but −Ku,
 ///     Ê = ½vᵀMv + ½uᵀKu − (Δt²β2/4) aᵀMa,
 ///     ΔÊ = Δuᵀ[(1−β2) f_n + β2 f_{n+1}] − (β2−½)[ΔuᵀKΔu − (Δt²β2/2) ΔaᵀMΔa].
-/// Works are summed every step over this rank's boundary nodes; sums over ranks are taken when a row asks for them.
+/// Works are summed every step over this rank's boundary nodes; sums over ranks are taken when a row asks for
+/// them.
 class EnergyLedger {
  public:
   EnergyLedger(double beta2, double time_step) : beta2_(beta2), time_step_(time_step) {}
 
   /// Closes the step n−1 → n and opens n → n+1, when all forces at t_n and u_{n+1} are known.
   /// `surface_travel` is the surface's path over the coming step, m.
-  void add(const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state, double surface_travel);
+  void add(const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state,
+           double surface_travel);
 
-  /// The same for the bulk terms; `sums` are those of free motion and are corrected here for what the boundary forces
-  /// changed. `first`: there is no step to close yet.
-  void add_bulk(BulkSums sums, const BulkPhysics& physics, const Damping& damping, const StepCoefficients& step,
-                const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state, const Vector2* force,
-                bool first);
+  /// The same for the bulk terms; `sums` are those of free motion and are corrected here for what the
+  /// boundary forces changed. `first`: there is no step to close yet.
+  void add_bulk(BulkSums sums, const BulkPhysics& physics, const Damping& damping,
+                const StepCoefficients& step, const BoundaryNodes& nodes, const ContactNodes& contact,
+                const NodalState& state, const Vector2* force, bool first);
 
   /// This rank's works; kinetic, strain and body force are left to the caller.
   Energy works() const;

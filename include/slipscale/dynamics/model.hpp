@@ -16,8 +16,8 @@ class Model {
   Model(const Mesh& mesh, std::vector<Material> materials, Storage storage);
 
   const Mesh& mesh;
-  const std::vector<Material> materials;     ///< [regions]
-  const std::vector<double> mass;            ///< [owned nodes], kg/m
+  const std::vector<Material> materials;  ///< [regions]
+  const std::vector<double> mass;         ///< [owned nodes], kg/m
   const std::variant<PairStiffness<double>, PairStiffness<float>> stiffness;
 
   void multiply(Vector2* displacement, Vector2* force) const {
@@ -25,7 +25,8 @@ class Model {
   }
 };
 
-/// A Vec of blocks of two, one a node: the owned nodes, and behind them in the same array the ghosts if it has any.
+/// A Vec of blocks of two, one a node: the owned nodes, and behind them in the same array the ghosts if it
+/// has any.
 class NodalVector {
  public:
   NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts);
@@ -35,7 +36,8 @@ class NodalVector {
 
   Vector2* data() const { return array_; }
   Vec vec() const { return vec_; }
-  /// The halo exchange: sends the owned values to the ranks that hold them as ghosts. `end` without `begin` does nothing.
+  /// The halo exchange: sends the owned values to the ranks that hold them as ghosts. `end` without `begin`
+  /// does nothing.
   void begin_update();
   void end_update();
 
@@ -51,7 +53,8 @@ struct FrequencyBounds {
   double safe = 0;   ///< 1/s, from the largest element eigenvalue
 };
 
-/// The largest frequency of the undamped free body, two ways. Does not depend on the number of ranks. Collective.
+/// The largest frequency of the undamped free body, two ways. Does not depend on the number of ranks.
+/// Collective.
 FrequencyBounds largest_frequency(MPI_Comm comm, const Model& model);
 
 }  // namespace slipscale

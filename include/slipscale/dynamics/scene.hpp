@@ -37,14 +37,15 @@ TimeChoice read_time(const Options& options);
 Model::Storage read_storage(const Options& options);
 
 struct TimeStep {
-  double step = 0;               ///< s
-  double limit = 0;              ///< stable step for the sharp frequency, s
-  double safe_limit = 0;         ///< the same for the safe bound, s
-  long count = 0;                ///< steps to the end
+  double step = 0;        ///< s
+  double limit = 0;       ///< stable step for the sharp frequency, s
+  double safe_limit = 0;  ///< the same for the safe bound, s
+  long count = 0;         ///< steps to the end
   FrequencyBounds frequency;
 };
 
-/// Chooses the step, or checks the given one. Throws UserError when it is above the stability limit. Collective.
+/// Chooses the step, or checks the given one. Throws UserError when it is above the stability limit.
+/// Collective.
 TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time);
 
 std::string describe(const TimeStep& step, const Model& model);

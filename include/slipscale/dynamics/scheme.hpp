@@ -8,23 +8,29 @@ struct Damping {
   double stiffness = 0;  ///< b, s
 };
 
-/// One step of the explicit β2 scheme (Katona and Zienkiewicz, IJNME 21 (1985) 1345; Newmark with β = 0, γ = β2):
-///     w       = v_{n−1} + predictor a_{n−1}
-///     v_n     = w + velocity a_n
-///     u_{n+1} = u_n + time_step w + displacement a_n
+/// One step of the explicit β2 scheme (Katona and Zienkiewicz, IJNME 21 (1985) 1345; Newmark with β = 0, γ =
+/// β2):
+///     w_n     = v_{n−1} + (1 − β2) Δt a_{n−1}
+///     v_n     = w_n + velocity a_n
+///     u_{n+1} = u_n + time_step w_n + displacement a_n
+/// The predictor alone carries the motion from step to step, w_{n+1} = w_n + predictor a_n, so that the step
+/// loop moves two arrays, u and w; v_n and a_n are made for the steps that are observed.
 struct StepCoefficients {
   double time_step;     ///< Δt, s
-  double predictor;     ///< (1 − β2) Δt, s
+  double predictor;     ///< Δt, s
   double velocity;      ///< β2 Δt, s
   double displacement;  ///< (β2 + ½) Δt², s²
 };
 
 constexpr StepCoefficients beta2_step(double time_step, double beta2) {
-  return {time_step, (1 - beta2) * time_step, beta2 * time_step, (beta2 + 0.5) * time_step * time_step};
+  return {time_step, time_step, beta2 * time_step, (beta2 + 0.5) * time_step * time_step};
 }
 
-/// The first step, from given u_0 and v_0: v_0 stays, u_1 = u_0 + Δt v_0 + ½Δt² a_0.
-constexpr StepCoefficients first_step(double time_step) { return {time_step, 0, 0, 0.5 * time_step * time_step}; }
+/// The first step, from given u_0 and v_0: w_0 = v_0 stays v_0, u_1 = u_0 + Δt v_0 + ½Δt² a_0, w_1 = v_0 + (1
+/// − β2)Δt a_0.
+constexpr StepCoefficients first_step(double time_step, double beta2) {
+  return {time_step, (1 - beta2) * time_step, 0, 0.5 * time_step * time_step};
+}
 
 /// Largest stable step [s]: aΔt + β2 Δt(Δt + 2b) ω² < 2 with the largest frequency ω [1/s].
 double stable_step(double frequency, double beta2, const Damping& damping);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipscale/contact/contact_nodes.hpp"
@@ -13,14 +14,14 @@ namespace slipscale {
 
 /// A deformable body that moves in explicit time, pressed on a rigid surface that slides under it.
 ///
-/// `advance` goes from t_n to t_{n+1}. Afterwards u is u_{n+1} while v, a, all forces, tractions and the works are
-/// those at t_n; `displacement_n` keeps u_n for a step that is observed.
+/// `advance` goes from t_n to t_{n+1}. Afterwards u is u_{n+1} while all forces, tractions and works are
+/// those at t_n. For a step that is observed, u_n is kept, and v_n and a_n are made.
 class SlidingBody {
  public:
   /// Throws UserError for contradictory conditions and a body that starts below the surface. Collective.
   SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step);
 
-  /// One step; `observed` keeps a copy of u_n. One halo exchange, no reduction, no allocation.
+  /// One step; `observed` as above. One halo exchange, no reduction, no allocation.
   void advance(bool observed);
 
   long steps_done() const { return step_; }
@@ -32,17 +33,18 @@ class SlidingBody {
   const Scene& scene() const { return scene_; }
   MPI_Comm comm() const { return comm_; }
 
-  const Vector2* displacement_n() const { return kept_.data(); }      ///< u_n, all local nodes, m; observed steps
-  const Vector2* displacement() const { return u_.data(); }           ///< u_{n+1}, all local nodes, m
-  const Vector2* velocity() const { return v_.data(); }               ///< v_n, owned nodes, m/s
-  const Vector2* acceleration() const { return a_.data(); }           ///< a_n, owned nodes, m/s²
-  const Vector2* internal_force() const { return force_.data(); }     ///< K u_n, owned nodes, N/m
-  const ContactNodes& contact() const { return contact_; }            ///< at t_n
-  const BoundaryNodes& boundary_nodes() const { return boundary_; }   ///< at t_n
+  const Vector2* displacement_n() const { return kept_.data(); }  ///< u_n, all local nodes, m; observed steps
+  const Vector2* displacement() const { return u_.data(); }       ///< u_{n+1}, all local nodes, m
+  const Vector2* predictor() const { return w_.data(); }          ///< w_{n+1}, owned nodes, m/s
+  const Vector2* velocity() const { return v_.data(); }           ///< v_n, owned nodes, m/s; observed steps
+  const Vector2* acceleration() const { return a_.data(); }       ///< a_n, owned nodes, m/s²; observed steps
+  const Vector2* internal_force() const { return force_.data(); }    ///< K u_n, owned nodes, N/m
+  const ContactNodes& contact() const { return contact_; }           ///< at t_n
+  const BoundaryNodes& boundary_nodes() const { return boundary_; }  ///< at t_n
   /// The boundaries whose nodes are the boundary nodes: with a condition, at the surface, measured; sorted.
   const std::vector<std::string>& boundary_names() const { return boundary_names_; }
-  double surface_velocity() const;                                    ///< V at t_n, m/s
-  double surface_travel() const { return surface_travel_; }           ///< over the step just made, m
+  double surface_velocity() const;                           ///< V at t_n, m/s
+  double surface_travel() const { return surface_travel_; }  ///< over the step just made, m
 
   /// Force of the body on its support at an owned node of a boundary, −(K u_n + stiffness damping), N/m.
   Vector2 force_on_support(int slot) const;
@@ -55,16 +57,19 @@ class SlidingBody {
   void free_motion(const StepCoefficients& step);
   using FreeMotionStep = void (SlidingBody::*)(const StepCoefficients&);
   static FreeMotionStep free_motion_for(const BulkPhysics& physics);
+  template <std::size_t... Index>
+  static auto free_motion_table(std::index_sequence<Index...>);
+  void find_velocity(const StepCoefficients& step);
 
   void set_contact_nodes();
   Energy local_energy() const;  ///< this rank's terms; residual and flowed left open
-  NodalState state() const { return {u_.data(), v_.data(), a_.data()}; }
+  NodalState state(bool with_acceleration) const;
 
   MPI_Comm comm_;
   const Model& model_;
   const Scene scene_;
   const double time_step_;
-  NodalVector u_, v_, a_;
+  NodalVector u_, w_, v_, a_;
   std::vector<Vector2> force_, previous_force_, kept_;
   std::vector<double> inverse_mass_;
   const std::vector<std::string> boundary_names_;
@@ -75,7 +80,7 @@ class SlidingBody {
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
-  FreeMotionStep free_motion_;
+  FreeMotionStep free_motion_, observed_free_motion_;
   BulkSums bulk_;
   EnergyLedger ledger_;
   double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m

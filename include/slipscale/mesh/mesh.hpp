@@ -20,9 +20,9 @@ struct Region {
 
 /// An edge of a named boundary with at least one end owned by this rank.
 struct BoundaryEdge {
-  std::array<int, 2> nodes{};        ///< local nodes, in the order of their whole-mesh numbers
-  std::array<Vector2, 2> ends{};     ///< their coordinates, unwrapped across a periodic seam, m
-  Vector2 outward{};                 ///< outward normal times the edge's length, m
+  std::array<int, 2> nodes{};     ///< local nodes, in the order of their whole-mesh numbers
+  std::array<Vector2, 2> ends{};  ///< their coordinates, unwrapped across a periodic seam, m
+  Vector2 outward{};              ///< outward normal times the edge's length, m
 };
 
 /// A gmsh physical curve. The first members describe it as a whole, `edges` and `nodes` this rank's part.
@@ -30,9 +30,9 @@ struct Boundary {
   std::string name;
   int tag = 0;
   PetscInt edge_count = 0;
-  double length = 0;              ///< m
-  bool interior = false;          ///< has cells on both sides: a periodic seam, or an interface
-  Vector2 normal{};               ///< unit mean outward normal; zero when it is interior or closes on itself
+  double length = 0;      ///< m
+  bool interior = false;  ///< has cells on both sides: a periodic seam, or an interface
+  Vector2 normal{};       ///< unit mean outward normal; zero when it is interior or closes on itself
   std::vector<BoundaryEdge> edges = {};  ///< in the order of their nodes' numbers
   std::vector<int> nodes = {};           ///< owned nodes on it, end points included, ascending
 };
@@ -83,7 +83,7 @@ struct Mesh {
   Vector2 lower{}, upper{};        ///< bounding box of the cells, m
   double shortest_edge = 0;        ///< m
   std::string file;
-  std::uint64_t checksum = 0;      ///< FNV-1a of the file's bytes
+  std::uint64_t checksum = 0;  ///< FNV-1a of the file's bytes
   PartitionReport partition;
 
   const Boundary* find_boundary(const std::string& name) const;

@@ -9,8 +9,8 @@
 
 namespace slipscale {
 
-/// Brings the rows of all ranks to rank 0 in the order of a key, so that what is summed or written there has the
-/// same bits on any number of ranks. Keys are distinct. For rows that are few: boundaries, probes.
+/// Brings the rows of all ranks to rank 0 in the order of a key, so that what is summed or written there has
+/// the same bits on any number of ranks. Keys are distinct. For rows that are few: boundaries, probes.
 class OrderedGather {
  public:
   OrderedGather() = default;

@@ -36,8 +36,9 @@ class Yaml {
   int depth_ = 0;
 };
 
-/// The text of run.yaml: every effective option by its flat name, so that `-options_file_yaml run.yaml` runs it again,
-/// and what `facts` writes (the version, ranks, stable step, …) nested under `run`, which is no option.
+/// The text of run.yaml: every effective option by its flat name, so that `-options_file_yaml run.yaml` runs
+/// it again, and what `facts` writes (the version, ranks, stable step, …) nested under `run`, which is no
+/// option.
 std::string run_yaml(const std::map<std::string, std::string>& effective,
                      const std::function<void(Yaml& yaml)>& facts);
 

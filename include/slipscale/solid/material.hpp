@@ -32,9 +32,9 @@ WaveSpeeds wave_speeds(const Material& material, double nx, double ny);
 
 Schema material_schema();
 
-/// One material a region, in the order of `regions`. `material_all_…` (or `material_file`) serves every region that
-/// has none of its own. Throws UserError for a region without material, a value missing, out of range or given
-/// twice, and a stiffness that is not positive definite.
+/// One material a region, in the order of `regions`. `material_all_…` (or `material_file`) serves every
+/// region that has none of its own. Throws UserError for a region without material, a value missing, out of
+/// range or given twice, and a stiffness that is not positive definite.
 std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions);
 
 }  // namespace slipscale

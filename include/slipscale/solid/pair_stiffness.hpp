@@ -14,11 +14,11 @@ namespace slipscale {
 /// The stiffness of a body as a graph of node pairs.
 ///
 /// A rigid translation costs nothing, so each row of 2×2 blocks sums to zero and the diagonal need not be
-/// stored: f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Of each block
-/// the symmetric part is stored; the skew part, (C12 − C66)/2 ∫ ∇N_i × ∇N_j, is a boundary integral that cancels
-/// between cells of one material, so it is kept apart for the few pairs on outer edges and interfaces. Pairs are
-/// visited in the order of their whole-mesh numbers (low, high), so the sum at a node has the same bits on
-/// any number of ranks.
+/// stored: f_i = Σ_j K_ij (u_j − u_i). Symmetry, K_ji = K_ijᵀ, lets each pair serve both its ends. Of each
+/// block the symmetric part is stored; the skew part, (C12 − C66)/2 ∫ ∇N_i × ∇N_j, is a boundary integral
+/// that cancels between cells of one material, so it is kept apart for the few pairs on outer edges and
+/// interfaces. Pairs are visited in the order of their whole-mesh numbers (low, high), so the sum at a node
+/// has the same bits on any number of ranks.
 ///
 /// `Scalar` is what the blocks are stored in; all arithmetic is in double precision.
 template <class Scalar>
@@ -96,8 +96,8 @@ void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Comp
         __builtin_prefetch(block + 32);  // the processor's own prefetch does not keep up with this stream
         const int j = *high;
         const Lanes d = load(displacement[j]) - u;
-        const Lanes pull = Lanes{block->xx, block->xy} * Lanes{d[0], d[0]} +
-                           Lanes{block->xy, block->yy} * Lanes{d[1], d[1]};
+        const Lanes pull =
+            Lanes{block->xx, block->xy} * Lanes{d[0], d[0]} + Lanes{block->xy, block->yy} * Lanes{d[1], d[1]};
         f += pull;
         store(force[j], load(force[j]) - pull);
       }
