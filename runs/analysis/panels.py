@@ -64,9 +64,16 @@ def phase_portrait(axes, figure, history, point, window, surface_speed):
 
 
 def friction(axes, history, boundary, window, coefficient):
-    """Friction measured at a boundary over the whole run, its mean in the window and the local coefficient."""
+    """Friction measured at a boundary over the whole run, its mean in the window and the local coefficient.
+
+    As in the spectrum, the instantaneous ratio gives way to T over mean N where N comes near zero.
+    """
     rows = rows_in(history.time, window)
     mean, measured = history.mean_friction(boundary, rows), history.friction
+    name = friction_signal(history, boundary, rows)[1]
+    if name != "T / N":
+        forces = history.boundary[boundary]
+        measured = forces["tangential_force"] / forces["normal_force"][rows].mean()
     axes.axvspan(window[0] * MICRO, window[1] * MICRO, color="0.93", zorder=0)
     axes.plot(history.time * MICRO, measured, color=BLUE, linewidth=0.6, rasterized=True)
     axes.plot(np.array(window) * MICRO, [mean, mean], color=VERMILION, linewidth=2,
@@ -82,7 +89,7 @@ def friction(axes, history, boundary, window, coefficient):
     axes.set_xlim(history.time[0] * MICRO, history.time[-1] * MICRO)
     axes.legend(loc="upper left", framealpha=0.9)
     axes.grid(alpha=0.25)
-    axes.set(title=f"(b) Global friction, measured at `{boundary}`", xlabel="time [µs]", ylabel="T / N [1]")
+    axes.set(title=f"(b) Global friction, measured at `{boundary}`", xlabel="time [µs]", ylabel=f"{name} [1]")
 
 
 def friction_signal(history, boundary, rows):
