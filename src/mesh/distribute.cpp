@@ -136,7 +136,7 @@ class Extraction {
       const PetscInt *ends = nullptr, *support = nullptr;
       petsc(DMPlexGetCone(dm_, edge, &ends));
       petsc(DMPlexGetSupport(dm_, edge, &support));
-      if (owned_[ends[0]] || owned_[ends[1]]) boundary.edges.push_back(side(support[0], ends));
+      if (owned_[ends[0]] || owned_[ends[1]]) boundary.edges.push_back(local_edge(support[0], edge));
     }
     const auto& number = mesh_.nodes.number;
     std::sort(boundary.edges.begin(), boundary.edges.end(),
@@ -151,25 +151,17 @@ class Extraction {
     boundary.nodes.erase(std::unique(boundary.nodes.begin(), boundary.nodes.end()), boundary.nodes.end());
   }
 
-  /// The edge as seen from the cell beside it, whose corners are unwrapped and run counter-clockwise.
-  BoundaryEdge side(PetscInt cell, const PetscInt ends[2]) const {
-    const auto geometry = cell_geometry(dm_, cell);
-    const std::size_t n = geometry.vertices.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const PetscInt a = geometry.vertices[k], b = geometry.vertices[(k + 1) % n];
-      if (!((a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]))) continue;
-      const Vector2 p = geometry.corners[k], q = geometry.corners[(k + 1) % n];
-      BoundaryEdge edge;
-      edge.outward = {q[1] - p[1], p[0] - q[0]};
-      edge.nodes = {local_[a - node_begin_], local_[b - node_begin_]};
-      edge.ends = {p, q};
-      if (number_[a] > number_[b]) {
-        std::swap(edge.nodes[0], edge.nodes[1]);
-        std::swap(edge.ends[0], edge.ends[1]);
-      }
-      return edge;
+  BoundaryEdge local_edge(PetscInt cell, PetscInt edge) const {
+    const CellSide side = side_of(dm_, cell, edge);
+    const bool ascending = number_[side.vertices[0]] < number_[side.vertices[1]];
+    BoundaryEdge result;
+    for (int end = 0; end < 2; ++end) {
+      const int from = ascending ? end : 1 - end;
+      result.nodes[end] = local_[side.vertices[from] - node_begin_];
+      result.ends[end] = side.ends[from];
     }
-    throw LibraryError("an edge is not among the edges of the cell beside it");
+    result.outward = side.outward;
+    return result;
   }
 
   void report() {

@@ -49,6 +49,20 @@ CellGeometry cell_geometry(DM dm, PetscInt cell) {
   return geometry;
 }
 
+CellSide side_of(DM dm, PetscInt cell, PetscInt edge) {
+  const PetscInt* ends = nullptr;
+  petsc(DMPlexGetCone(dm, edge, &ends));
+  const auto geometry = cell_geometry(dm, cell);
+  const std::size_t n = geometry.vertices.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const PetscInt a = geometry.vertices[k], b = geometry.vertices[(k + 1) % n];
+    if (!((a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]))) continue;
+    const Vector2 &p = geometry.corners[k], &q = geometry.corners[(k + 1) % n];
+    return {{a, b}, {p, q}, {q[1] - p[1], p[0] - q[0]}};
+  }
+  throw LibraryError("an edge is not among the edges of the cell beside it");
+}
+
 Vector2 vertex_position(DM dm, PetscInt vertex) {
   Vec coordinates = nullptr;
   PetscSection section = nullptr;

@@ -19,6 +19,14 @@ struct CellGeometry {
 };
 CellGeometry cell_geometry(DM dm, PetscInt cell);
 
+/// An edge as the cell beside it sees it: unwrapped, its ends in counter-clockwise order.
+struct CellSide {
+  std::array<PetscInt, 2> vertices{};  ///< plex points
+  std::array<Vector2, 2> ends{};       ///< m
+  Vector2 outward{};                   ///< outward normal times the edge's length, m
+};
+CellSide side_of(DM dm, PetscInt cell, PetscInt edge);
+
 /// Position of a vertex of the DMPlex, m.
 Vector2 vertex_position(DM dm, PetscInt vertex);
 
@@ -33,6 +41,14 @@ struct Whole {
   std::vector<PetscInt> number;  ///< rank 0: whole-mesh number of each vertex and cell, by plex point
   PetscInt node_count = 0, cell_count = 0;
 };
+
+/// Fewer than three cells across a period make two edges with the same ends, which a DMPlex merges. The
+/// sentence about it, or nothing. Rank 0, before the mesh is refined.
+std::string fault_in_torus(DM dm, const MeshSource& source);
+
+/// On a torus, gives every vertex the lowest of the positions at which its cells see it, x first: PETSc's
+/// choice varies along the seam, and refinement leaves the midpoints there on the other side of the body.
+void settle_seam(DM dm);
 
 /// Reads, refines, checks and measures the mesh. Collective; throws UserError.
 Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file);

@@ -55,78 +55,6 @@ void refine(MPI_Comm comm, int times, OwnedDM& dm) {
   }
 }
 
-std::string too_narrow(const MeshSource& source, const Vector2& place) {
-  return "mesh '" + source.file + "' has fewer than three cells across a period near " + at(place) +
-         "; mesh it finer";
-}
-
-bool is_localized(DM dm) {
-  PetscBool localized = PETSC_FALSE;
-  petsc(DMGetCoordinatesLocalized(dm, &localized));
-  return localized;
-}
-
-/// Gives every vertex the lowest of the positions at which its cells see it, x first. Elsewhere than on a
-/// torus that is its position already; on one, PETSc's choice varies along the seam and refinement leaves
-/// midpoints there off it.
-void set_positions(DM dm) {
-  PetscInt begin = 0, end = 0;
-  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
-  std::map<PetscInt, Vector2> lowest;
-  for (PetscInt cell = begin; cell < end; ++cell) {
-    const auto geometry = cell_geometry(dm, cell);
-    for (std::size_t k = 0; k < geometry.vertices.size() && k < geometry.corners.size(); ++k) {
-      const auto [known, is_new] = lowest.try_emplace(geometry.vertices[k], geometry.corners[k]);
-      if (!is_new) known->second = std::min(known->second, geometry.corners[k]);
-    }
-  }
-  Vec old = nullptr;
-  OwnedVec moved;
-  PetscSection section = nullptr;
-  petsc(DMGetCoordinatesLocal(dm, &old));
-  petsc(DMGetCoordinateSection(dm, &section));
-  petsc(VecDuplicate(old, moved.put()));
-  petsc(VecCopy(old, moved));
-  PetscScalar* values = nullptr;
-  petsc(VecGetArray(moved, &values));
-  for (const auto& [vertex, position] : lowest) {
-    PetscInt offset = 0;
-    petsc(PetscSectionGetOffset(section, vertex, &offset));
-    std::copy(position.begin(), position.end(), values + offset);
-  }
-  petsc(VecRestoreArray(moved, &values));
-  petsc(DMSetCoordinatesLocal(dm, moved));
-}
-
-/// Fewer than three cells across a period make two edges with the same ends, which a DMPlex merges.
-std::string fault_in_torus(DM dm, const MeshSource& source) {
-  PetscInt begin = 0, end = 0;
-  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
-  std::map<std::pair<PetscInt, PetscInt>, Vector2> link;
-  for (PetscInt cell = begin; cell < end; ++cell) {
-    const auto geometry = cell_geometry(dm, cell);
-    const std::size_t corners = geometry.corners.size(), vertices = geometry.vertices.size();
-    if (vertices < corners && corners <= 4) return too_narrow(source, geometry.corners[0]);
-    if (vertices != corners) continue;
-    const double size = std::sqrt(std::abs(geometry.area()));
-    for (std::size_t a = 0; a < geometry.vertices.size(); ++a)
-      for (std::size_t b = a + 1; b < geometry.vertices.size(); ++b) {
-        auto va = geometry.vertices[a], vb = geometry.vertices[b];
-        Vector2 d{geometry.corners[b][0] - geometry.corners[a][0],
-                  geometry.corners[b][1] - geometry.corners[a][1]};
-        if (va > vb) {
-          std::swap(va, vb);
-          d = {-d[0], -d[1]};
-        }
-        const auto [known, is_new] = link.try_emplace({va, vb}, d);
-        if (va == vb ||
-            (!is_new && std::hypot(known->second[0] - d[0], known->second[1] - d[1]) > 0.5 * size))
-          return too_narrow(source, geometry.corners[a]);
-      }
-  }
-  return "";
-}
-
 /// What is measured on rank 0 and told to all.
 struct Survey {
   const MeshSource& source;
@@ -221,7 +149,7 @@ struct Survey {
         petsc(DMPlexGetSupportSize(whole.dm, edge, &sides));
         petsc(DMPlexGetSupport(whole.dm, edge, &support));
         if (sides > 1) boundary.interior = true;
-        const Vector2 outward = outward_normal(support[0], edge);
+        const Vector2 outward = side_of(whole.dm, support[0], edge).outward;
         sum = {sum[0] + outward[0], sum[1] + outward[1]};
         boundary.length += std::hypot(outward[0], outward[1]);
         ++boundary.edge_count;
@@ -233,21 +161,6 @@ struct Survey {
       if (!boundary.interior && size > 1e-6 * boundary.length)
         boundary.normal = {sum[0] / size, sum[1] / size};
     }
-  }
-
-  Vector2 outward_normal(PetscInt cell, PetscInt edge) const {
-    const PetscInt* ends = nullptr;
-    petsc(DMPlexGetCone(whole.dm, edge, &ends));
-    const auto geometry = cell_geometry(whole.dm, cell);
-    const std::size_t n = geometry.vertices.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto a = geometry.vertices[k], b = geometry.vertices[(k + 1) % n];
-      if ((a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0])) {
-        const Vector2 &p = geometry.corners[k], &q = geometry.corners[(k + 1) % n];
-        return {q[1] - p[1], p[0] - q[0]};
-      }
-    }
-    throw LibraryError("an edge is not among the edges of the cell beside it");
   }
 
   std::vector<PetscInt> labelled(const std::string& name, int tag, PetscInt begin, PetscInt end) const {
@@ -314,7 +227,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   MPI_Comm_rank(comm, &rank);
   throw_together(comm, rank == 0 ? fault_in_torus(whole.dm, source) : "");
   refine(comm, source.refine, whole.dm);
-  if (is_localized(whole.dm)) set_positions(whole.dm);
+  settle_seam(whole.dm);
 
   Survey survey{source, whole, {}, {}, {}};
   if (rank == 0) {
