@@ -208,6 +208,7 @@ void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mes
   OwnedDM parts;
   petsc(DMPlexDistribute(whole.dm, 1, migration.put(), parts.put()));
   mesh.dm = parts.get() ? std::move(parts) : std::move(whole.dm);
+  petsc(DMGetCellCoordinatesLocalSetUp(mesh.dm));  // collective, so before the cells are looked at one by one
   const auto number = migrate(migration, mesh.dm, std::move(whole.number));
   mesh.regions = std::move(whole.regions);
   mesh.boundaries = std::move(whole.boundaries);

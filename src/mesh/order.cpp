@@ -55,7 +55,7 @@ std::vector<PetscInt> whole_mesh_order(DM dm) {
   petsc(DMPlexGetDepthStratum(dm, 0, &node_begin, &node_end));
   std::vector<std::vector<PetscInt>> cells;
   for (PetscInt cell = cell_begin; cell < cell_end; ++cell) {
-    cells.push_back(cell_geometry(dm, cell).vertices);
+    cells.push_back(cell_vertices(dm, cell));
     for (PetscInt& vertex : cells.back()) vertex -= node_begin;
   }
   NodeGraph graph = node_graph(cells, node_end - node_begin);

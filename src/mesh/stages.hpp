@@ -19,6 +19,9 @@ struct CellGeometry {
 };
 CellGeometry cell_geometry(DM dm, PetscInt cell);
 
+/// The corner vertices of a cell, plex points, in the order of the closure.
+std::vector<PetscInt> cell_vertices(DM dm, PetscInt cell);
+
 /// An edge as the cell beside it sees it: unwrapped, its ends in counter-clockwise order.
 struct CellSide {
   std::array<PetscInt, 2> vertices{};  ///< plex points

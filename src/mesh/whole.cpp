@@ -227,6 +227,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   MPI_Comm_rank(comm, &rank);
   throw_together(comm, rank == 0 ? fault_in_torus(whole.dm, source) : "");
   refine(comm, source.refine, whole.dm);
+  petsc(DMGetCellCoordinatesLocalSetUp(whole.dm));
   settle_seam(whole.dm);
 
   Survey survey{source, whole, {}, {}, {}};
