@@ -55,6 +55,15 @@ void refine(MPI_Comm comm, int times, OwnedDM& dm) {
   }
 }
 
+/// Whether more points than the vertices carry coordinates: cells of second or higher order.
+bool is_curved(DM dm, PetscInt vertices) {
+  Vec coordinates = nullptr;
+  PetscInt size = 0;
+  petsc(DMGetCoordinatesLocal(dm, &coordinates));
+  petsc(VecGetLocalSize(coordinates, &size));
+  return size != 2 * vertices;
+}
+
 /// What is measured on rank 0 and told to all.
 struct Survey {
   const MeshSource& source;
@@ -94,6 +103,7 @@ struct Survey {
     whole.upper.fill(-std::numeric_limits<double>::max());
     whole.shortest_edge = std::numeric_limits<double>::max();
     std::vector<char> seen(static_cast<std::size_t>(node_end - node_begin), 0);
+    curved = is_curved(whole.dm, node_end - node_begin);
     for (PetscInt cell = begin; cell < end && fault.empty(); ++cell) check(cell, begin, node_begin, seen);
     if (fault.empty() && std::find(seen.begin(), seen.end(), 0) != seen.end())
       fault = "mesh '" + source.file +
@@ -105,7 +115,7 @@ struct Survey {
   void check(PetscInt cell, PetscInt begin, PetscInt node_begin, std::vector<char>& seen) {
     const auto geometry = cell_geometry(whole.dm, cell);
     const std::size_t n = geometry.vertices.size();
-    if ((n != 3 && n != 4) || geometry.corners.size() != n) {
+    if ((n != 3 && n != 4) || geometry.corners.size() != n || curved) {
       fault = "mesh '" + source.file +
               "' has cells that are not three- or four-cornered and straight; use gmsh -order 1";
       return;
@@ -187,7 +197,8 @@ struct Survey {
     return list;
   }
 
-  Vector2 shifts{};  ///< largest distance between a corner and its vertex: the period, where there is one
+  bool curved = false;  ///< the file holds cells of second or higher order
+  Vector2 shifts{};     ///< largest distance between a corner and its vertex: the period, where there is one
 };
 
 void tell_all(MPI_Comm comm, Whole& whole) {
