@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipscale/morphology/recipe.hpp"
+
+namespace slipscale {
+
+/// The inclusions of one composite. On a periodic side an inclusion is listed once, with its centre in the
+/// block; `images` gives its copies.
+struct Placement {
+  std::vector<Inclusion> inclusions;
+  std::vector<double> fraction;  ///< achieved, by family
+  double smallest_gap = 0;       ///< m; infinite for a single inclusion
+  int relaxed = 0;               ///< inclusions that found no free place and for which others had to move
+  int moved = 0, dropped = 0;    ///< inclusions of an array that were repaired
+};
+
+/// Random sequential placement, the largest family first; where it jams, inclusions are put in and the
+/// overlaps relaxed (Jodrey and Tory 1985). The fraction of each family is reached to within one of its
+/// inclusions. Same seed, same composite. Throws UserError when the fraction cannot be reached, with the
+/// value that can.
+Placement place_at_random(const std::vector<Family>& families, const Room& room, std::uint64_t seed);
+
+/// A square or hexagonal array of one family (same size, same angle). Its `diameter` and `fraction` are those
+/// of the inclusion that fits. Throws UserError when neighbours come closer than the gap.
+Placement place_in_array(const Family& family, const Room& room, const Array& array);
+
+/// The inclusion itself and its copies that reach into the block across periodic sides.
+std::vector<Inclusion> images(const Inclusion& inclusion, const Room& room);
+
+/// Whether the inclusion (with its images) keeps the clearance and the keep-out layer; otherwise a way to
+/// mend it, m.
+struct Fault {
+  bool found = false;
+  Vector2 way{};  ///< shortest move found that mends it
+};
+Fault side_fault(const Inclusion& inclusion, const Room& room);
+
+}  // namespace slipscale

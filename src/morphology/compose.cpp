@@ -1,0 +1,156 @@
+#include "slipscale/morphology/compose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mend.hpp"
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/morphology/drawing.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr int repairs = 8;  ///< meshes made before a recipe is given up
+constexpr double most_cells = 1e8;
+
+void refuse_too_many(double cells) {
+  if (cells > most_cells)
+    throw UserError(
+        format("-size asks for about %.1e cells, beyond the %.0e that a mesh file holds here; give a "
+               "larger one",
+               cells, most_cells));
+}
+
+std::vector<std::string> region_names(const Recipe& recipe) {
+  std::vector<std::string> names{"matrix"};
+  if (recipe.composite == Composite::laminate) names.push_back("inclusion");
+  for (const Family& family : recipe.families) names.push_back(family.region);
+  return names;
+}
+
+bool good_enough(const MeshQuality& quality, double allowed) {
+  return std::min(quality.smallest_angle, std::numbers::pi - quality.largest_angle) >= allowed;
+}
+
+[[noreturn]] void refuse_bad_cells(const Recipe& recipe, const Composed& composed) {
+  const CompositeMesh& mesh = composed.mesh;
+  const auto angle = [&](const CompositeMesh::Cell& cell) { return worst_angle(mesh.corners(cell)); };
+  const CompositeMesh::Cell worst = *std::ranges::min_element(mesh.cells, {}, angle);
+  const Vector2& x = mesh.nodes[worst.corners[0]];
+  throw UserError(format(
+      "the mesh has a cell at (%g, %g) m with an angle within %.2f degrees of 0 or 180, and "
+      "-worst_angle asks for %g; give a smaller -size_interface or -size, a larger -gap or "
+      "-repair, or a smaller -worst_angle",
+      x[0], x[1], angle(worst) * 180 / std::numbers::pi, recipe.mesh.worst_angle * 180 / std::numbers::pi));
+}
+
+void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, std::size_t inclusions,
+                 GmshModel& gmsh, Composed& composed) {
+  gmsh.mesh(draw(composed.block, pieces), region_names(recipe), recipe.room, recipe.mesh);
+  composed.mesh = gmsh.read();
+  composed.quality = quality(composed.mesh);
+  composed.drawn_area.assign(inclusions, 0);
+}
+
+void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
+  const int columns =
+                std::max(1, static_cast<int>(std::lround(composed.block.width() / recipe.mesh.size.bulk))),
+            rows =
+                std::max(1, static_cast<int>(std::lround(composed.block.height() / recipe.mesh.size.bulk)));
+  gmsh.mesh_grid(composed.block, recipe.room.periodic, columns, rows, recipe.mesh.cell, {"matrix"}, {});
+  composed.mesh = gmsh.read();
+  composed.quality = quality(composed.mesh);
+}
+
+void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
+  const GreyPicture picture = read_grey(recipe.image.file);
+  refuse_too_many(static_cast<double>(picture.columns) * picture.rows);
+  composed.block.high = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
+  const std::vector<int> region = regions_of(picture, recipe.image);
+  for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)
+    if (std::ranges::count(region, static_cast<int>(k)) == 0)
+      throw UserError("no pixel of -image_file '" + recipe.image.file + "' has the grey of region '" +
+                      recipe.image.regions[k] + "'; change -image_levels");
+  gmsh.mesh_grid(composed.block, recipe.room.periodic, picture.columns, picture.rows,
+                 CellShape::quadrilateral, recipe.image.regions, region);
+  composed.mesh = gmsh.read();
+  composed.quality = quality(composed.mesh);
+}
+
+void compose_laminate(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
+  const std::vector<Piece> pieces = layers(recipe.laminate, recipe.room, recipe.mesh.size.interface);
+  int layers_drawn = 0;
+  for (const Piece& piece : pieces) layers_drawn = std::max(layers_drawn, piece.inclusion + 1);
+  mesh_pieces(recipe, pieces, static_cast<std::size_t>(layers_drawn), gmsh, composed);
+  for (const Piece& piece : pieces) {
+    std::vector<Vector2> corners;
+    for (const Vertex& corner : piece.corners) corners.push_back(corner.x);
+    composed.drawn_area[piece.inclusion] += polygon_area(corners);
+  }
+}
+
+double area_in_block(const Inclusion& inclusion, const Room& room) {
+  double sum = 0;
+  for (const Inclusion& image : images(inclusion, room)) sum += area_inside(image, room.block);
+  return sum;
+}
+
+void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
+  Placement& placement = composed.placement;
+  placement = recipe.composite == Composite::random
+                  ? place_at_random(recipe.families, recipe.room, recipe.seed)
+                  : place_in_array(recipe.families.front(), recipe.room, recipe.array);
+  std::vector<Vector2> drawn;
+  for (const Inclusion& inclusion : placement.inclusions) drawn.push_back(inclusion.centre);
+  for (int round = 0;; ++round) {
+    mesh_pieces(recipe, polygons(placement.inclusions, recipe.room, recipe.mesh.size.interface),
+                placement.inclusions.size(), gmsh, composed);
+    if (good_enough(composed.quality, recipe.mesh.worst_angle) || round == repairs) break;
+    const Mending done =
+        mend(placement.inclusions, drawn, recipe.room, composed.mesh, recipe.mesh.worst_angle, recipe.repair);
+    if (done.moved + done.dropped == 0) break;
+    composed.mended += done.moved;
+    composed.dropped += done.dropped;
+  }
+  std::ranges::fill(placement.fraction, 0.0);
+  for (std::size_t k = 0; k < placement.inclusions.size(); ++k) {
+    const Inclusion& inclusion = placement.inclusions[k];
+    composed.drawn_area[k] = area_in_block(inclusion, recipe.room);
+    placement.fraction[inclusion.family] +=
+        composed.drawn_area[k] / (composed.block.width() * composed.block.height());
+  }
+}
+
+}  // namespace
+
+Composed compose(const Recipe& recipe, GmshModel& gmsh) {
+  Composed composed;
+  composed.block = recipe.room.block;
+  if (recipe.composite != Composite::image)
+    refuse_too_many(2.3 * composed.block.width() * composed.block.height() /
+                    (recipe.mesh.size.bulk * recipe.mesh.size.bulk));
+  switch (recipe.composite) {
+    case Composite::homogeneous:
+      if (recipe.mesh.structured)
+        compose_grid(recipe, gmsh, composed);
+      else
+        mesh_pieces(recipe, {}, 0, gmsh, composed);
+      break;
+    case Composite::laminate:
+      compose_laminate(recipe, gmsh, composed);
+      break;
+    case Composite::image:
+      compose_image(recipe, gmsh, composed);
+      break;
+    case Composite::random:
+    case Composite::array:
+      compose_inclusions(recipe, gmsh, composed);
+      break;
+  }
+  if (!good_enough(composed.quality, recipe.mesh.worst_angle)) refuse_bad_cells(recipe, composed);
+  return composed;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,200 @@
+#include "slipscale/morphology/recipe.hpp"
+
+#include <petscsys.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+template <class Value>
+Value chosen(const std::string& word, const std::map<std::string, Value>& values) {
+  return values.at(word);
+}
+
+/// The given length, or `otherwise` for `auto`.
+double length_or(const Options& options, const std::string& name, double otherwise) {
+  const std::string text = options.text(name);
+  return text == "auto" ? otherwise : std::strtod(text.c_str(), nullptr);
+}
+
+/// The names in -families_<name>_<key>, as typed.
+std::set<std::string> family_names() {
+  char* all = nullptr;
+  petsc(PetscOptionsGetAll(nullptr, &all));
+  std::istringstream words(all);
+  petsc(PetscFree(all));
+  const std::string prefix = "-families_";
+  std::set<std::string> names;
+  for (std::string word; words >> word;) {
+    if (word.rfind(prefix, 0) != 0) continue;
+    std::size_t longest = 0;
+    for (const char* key : {"_shape", "_fraction", "_diameter", "_diameter_deviation",
+                            "_diameter_distribution", "_aspect", "_rounding", "_angle", "_angle_deviation"})
+      if (word.ends_with(key)) longest = std::max(longest, std::string(key).size());
+    if (longest > 0 && word.size() > prefix.size() + longest)
+      names.insert(word.substr(prefix.size(), word.size() - prefix.size() - longest));
+  }
+  return names;
+}
+
+/// Reads one kind of inclusion from the options that begin with `prefix`. An array has one size and one
+/// angle, and takes either the fraction or the diameter.
+Family read_family(const Options& options, const std::string& prefix, const std::string& region,
+                   bool in_array) {
+  Family family;
+  family.region = region;
+  family.shape =
+      chosen<Shape>(options.text(prefix + "shape"),
+                    {{"disc", Shape::disc}, {"ellipse", Shape::ellipse}, {"rectangle", Shape::rectangle}});
+  if (!in_array || options.given(prefix + "fraction")) family.fraction = options.real(prefix + "fraction");
+  if (!in_array || !options.given(prefix + "fraction")) family.diameter = options.real(prefix + "diameter");
+  if (family.shape != Shape::disc) {
+    family.aspect = options.real(prefix + "aspect");
+    family.angle = options.real(prefix + "angle") * degree;
+  }
+  if (family.shape == Shape::rectangle) family.rounding = options.real(prefix + "rounding");
+  if (in_array) return family;
+  family.diameter_deviation = options.real(prefix + "diameter_deviation");
+  if (family.diameter_deviation > 0)
+    family.distribution = chosen<SizeDistribution>(options.text(prefix + "diameter_distribution"),
+                                                   {{"normal", SizeDistribution::normal},
+                                                    {"lognormal", SizeDistribution::lognormal},
+                                                    {"uniform", SizeDistribution::uniform}});
+  if (family.shape == Shape::disc) return family;
+  const std::string deviation = options.text(prefix + "angle_deviation");
+  family.angle_deviation = deviation == "any" ? std::numeric_limits<double>::infinity()
+                                              : std::strtod(deviation.c_str(), nullptr) * degree;
+  return family;
+}
+
+void read_families(Options& options, Recipe& recipe) {
+  const std::set<std::string> names = family_names();
+  options.know_names("family", {names.begin(), names.end()});
+  const bool in_array = recipe.composite == Composite::array;
+  if (names.empty()) {
+    recipe.families = {read_family(options, "", "inclusion", in_array)};
+    return;
+  }
+  if (in_array)
+    throw UserError("-arrangement " + options.text("arrangement") + " places one kind of inclusion, but " +
+                    "families are given; remove them, or place them with -arrangement random");
+  for (const std::string& name : names) {
+    if (name == "matrix")
+      throw UserError("the family 'matrix' has the name of the region around it; choose another name");
+    recipe.families.push_back(read_family(options, "families_" + name + "_", name, false));
+  }
+}
+
+MeshSize read_size(const Options& options, bool has_interface) {
+  MeshSize size;
+  size.bulk = options.real("size");
+  size.interface = has_interface ? length_or(options, "size_interface", size.bulk) : size.bulk;
+  size.surface = length_or(options, "size_surface", size.bulk);
+  if (size.interface < size.bulk || size.surface < size.bulk) size.growth = options.real("size_growth");
+  return size;
+}
+
+void read_mesh_choice(const Options& options, Recipe& recipe) {
+  MeshChoice& mesh = recipe.mesh;
+  const bool homogeneous = recipe.composite == Composite::homogeneous;
+  if (homogeneous) mesh.structured = options.flag("structured");
+  mesh.cell = chosen<CellShape>(
+      options.text("cell"), {{"triangle", CellShape::triangle}, {"quadrilateral", CellShape::quadrilateral}});
+  if (mesh.structured)
+    mesh.size.bulk = mesh.size.interface = mesh.size.surface = options.real("size");
+  else
+    mesh.size = read_size(options, !homogeneous);
+  if (!mesh.structured) mesh.worst_angle = options.real("worst_angle") * degree;
+}
+
+void read_block(const Options& options, Room& room) {
+  room.block.high = {options.real("block_width"), options.real("block_height")};
+  const std::string periodic = options.text("periodic");
+  room.periodic = {periodic != "none", periodic == "xy"};
+}
+
+void read_room(const Options& options, Recipe& recipe) {
+  Room& room = recipe.room;
+  const MeshSize& size = recipe.mesh.size;
+  room.gap = length_or(options, "gap", 0.5 * size.interface);
+  room.clearance = 0.5 * size.interface;
+  if (!room.periodic[0] || !room.periodic[1])
+    room.edge = chosen<Edge>(options.text("edge"), {{"cut", Edge::cut}, {"inside", Edge::inside}});
+  if (!room.periodic[1]) room.keep_out = options.real("keep_out");
+  recipe.repair = length_or(options, "repair", size.interface);
+}
+
+void read_laminate(const Options& options, Recipe& recipe) {
+  recipe.laminate = {options.real("fraction"), options.real("layer_period"), options.real("angle") * degree};
+}
+
+void read_image(const Options& options, Recipe& recipe) {
+  GreyImage& image = recipe.image;
+  image = {options.text("image_file"), options.reals("image_levels"), {}, options.real("image_pixel")};
+  for (std::size_t k = 1; k < image.levels.size(); ++k)
+    if (image.levels[k] <= image.levels[k - 1])
+      throw UserError("-image_levels must ascend, but " + format("%g", image.levels[k]) + " follows " +
+                      format("%g", image.levels[k - 1]) + "; sort them");
+  std::istringstream names(options.find_text("image_regions").value_or("matrix,inclusion"));
+  for (std::string name; std::getline(names, name, ',');) image.regions.push_back(name);
+  if (image.regions.size() != image.levels.size() + 1)
+    throw UserError(
+        format("-image_regions names %zu regions, but %zu grey levels part %zu; give one name for each",
+               image.regions.size(), image.levels.size(), image.levels.size() + 1));
+  const std::string periodic = options.text("periodic");
+  recipe.room.periodic = {periodic != "none", periodic == "xy"};
+}
+
+}  // namespace
+
+Recipe read_recipe(Options& options) {
+  Recipe recipe;
+  const std::string shape =
+      options.given("shape") || family_names().empty() ? options.text("shape") : std::string("families");
+  if (shape == "none")
+    recipe.composite = Composite::homogeneous;
+  else if (shape == "laminate")
+    recipe.composite = Composite::laminate;
+  else if (shape == "image")
+    recipe.composite = Composite::image;
+  else {
+    recipe.array.arrangement =
+        chosen<Arrangement>(options.text("arrangement"), {{"random", Arrangement::random},
+                                                          {"square", Arrangement::square},
+                                                          {"hexagonal", Arrangement::hexagonal}});
+    recipe.composite = recipe.array.arrangement == Arrangement::random ? Composite::random : Composite::array;
+  }
+  if (recipe.composite == Composite::image) {
+    read_image(options, recipe);
+    return recipe;
+  }
+  read_block(options, recipe.room);
+  read_mesh_choice(options, recipe);
+  if (recipe.composite == Composite::laminate) read_laminate(options, recipe);
+  if (recipe.composite == Composite::random || recipe.composite == Composite::array) {
+    read_room(options, recipe);
+    read_families(options, recipe);
+  }
+  if (recipe.composite == Composite::random)
+    recipe.seed = static_cast<std::uint64_t>(options.integer("seed"));
+  if (recipe.composite == Composite::array) {
+    recipe.array.columns = static_cast<int>(options.integer("columns"));
+    recipe.array.rows = static_cast<int>(options.integer("rows"));
+    recipe.array.repair = recipe.repair;
+  }
+  return recipe;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,139 @@
+#include "slipscale/morphology/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slipscale/base/print.hpp"
+#include "slipscale/record/yaml.hpp"
+#include "slipscale/version.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Largest relative difference between an inclusion's meshed and drawn area.
+double area_error(const Composed& composed) {
+  const auto meshed = inclusion_areas(composed.mesh, composed.drawn_area.size());
+  double most = 0;
+  for (std::size_t k = 0; k < meshed.size(); ++k)
+    if (composed.drawn_area[k] > 0) most = std::max(most, std::abs(meshed[k] / composed.drawn_area[k] - 1));
+  return most;
+}
+
+long triangles(const CompositeMesh& mesh) {
+  return std::ranges::count(mesh.cells, 3, &CompositeMesh::Cell::count);
+}
+
+std::string place(const CompositeMesh& mesh, int cell) {
+  Vector2 middle{};
+  const std::vector<Vector2> corners = mesh.corners(mesh.cells[cell]);
+  for (const Vector2& x : corners)
+    for (int axis = 0; axis < 2; ++axis) middle[axis] += x[axis] / static_cast<double>(corners.size());
+  return "(" + engineering(middle[0], "m") + ", " + engineering(middle[1], "m") + ")";
+}
+
+std::string region_table(const Recipe& recipe, const Composed& composed) {
+  const CompositeMesh& mesh = composed.mesh;
+  const std::vector<double> areas = region_areas(mesh);
+  std::vector<std::vector<std::string>> rows{
+      {"region", "cells", "area [m2]", "fraction", "asked", "inclusions"}};
+  for (std::size_t k = 0; k < mesh.regions.size(); ++k) {
+    const auto number = static_cast<int>(k);
+    const bool family = k > 0 && k <= recipe.families.size();
+    const double asked = family                                         ? recipe.families[k - 1].fraction
+                         : recipe.composite == Composite::laminate && k ? recipe.laminate.fraction
+                                                                        : 0;
+    rows.push_back(
+        {mesh.regions[k],
+         format("%ld",
+                static_cast<long>(std::ranges::count(mesh.cells, number, &CompositeMesh::Cell::region))),
+         format("%.6e", areas[k]),
+         format("%.5f", areas[k] / (composed.block.width() * composed.block.height())),
+         asked > 0 ? format("%.5f", asked) : "-",
+         family ? format("%ld", static_cast<long>(std::ranges::count(composed.placement.inclusions,
+                                                                     number - 1, &Inclusion::family)))
+                : "-"});
+  }
+  return table(rows);
+}
+
+std::string placement_line(const Composed& composed) {
+  const Placement& placement = composed.placement;
+  std::string text =
+      "smallest gap " + (std::isfinite(placement.smallest_gap) ? engineering(placement.smallest_gap, "m")
+                                                               : std::string("none"));
+  if (placement.relaxed)
+    text += format("; %d inclusions found room only after others had moved", placement.relaxed);
+  const int moved = placement.moved + composed.mended, dropped = placement.dropped + composed.dropped;
+  if (moved + dropped) text += format("; repaired: %d moved, %d dropped", moved, dropped);
+  return text + "\n";
+}
+
+std::string histogram(const MeshQuality& quality) {
+  std::string text = "cells by smallest angle:";
+  for (std::size_t bin = 0; bin < quality.histogram.size(); ++bin)
+    if (quality.histogram[bin])
+      text += format("  %zu-%zu: %ld", 10 * bin, 10 * bin + 10, quality.histogram[bin]);
+  return text + " (degrees)\n";
+}
+
+}  // namespace
+
+std::string describe(const Recipe& recipe, const Composed& composed) {
+  const CompositeMesh& mesh = composed.mesh;
+  const MeshQuality& quality = composed.quality;
+  std::string text = "block " + engineering(composed.block.width(), "m") + " x " +
+                     engineering(composed.block.height(), "m") +
+                     format(", %zu nodes, %ld triangles, %ld quadrilaterals\n", mesh.nodes.size(),
+                            triangles(mesh), static_cast<long>(mesh.cells.size()) - triangles(mesh));
+  text += region_table(recipe, composed);
+  if (!composed.placement.inclusions.empty()) text += placement_line(composed);
+  if (!composed.drawn_area.empty())
+    text += format("meshed against drawn area of an inclusion: at most %.1e apart\n", area_error(composed));
+  text += histogram(quality);
+  text += format("angles %.2f to %.2f degrees\n", quality.smallest_angle / degree,
+                 quality.largest_angle / degree);
+  text += format("the step is set by cell %d at ", quality.step_cell) + place(mesh, quality.step_cell) +
+          ": dilatational speed times stable step " + engineering(quality.step_length, "m") +
+          format(", %.2f of the median cell's (Poisson's ratio .3)\n",
+                 quality.step_length / quality.typical_step_length);
+  return text;
+}
+
+std::string morphology_yaml(const std::map<std::string, std::string>& effective, const Recipe& recipe,
+                            const Composed& composed) {
+  return run_yaml(effective, [&](Yaml& yaml) {
+    const MeshQuality& quality = composed.quality;
+    yaml.text("program", "morphology").text("version", version).text("gmsh", GmshModel::version());
+    yaml.integer("nodes", static_cast<long>(composed.mesh.nodes.size()));
+    yaml.integer("triangles", triangles(composed.mesh));
+    yaml.integer("quadrilaterals", static_cast<long>(composed.mesh.cells.size()) - triangles(composed.mesh));
+    const std::vector<double> areas = region_areas(composed.mesh);
+    yaml.begin("fraction", "achieved in the mesh");
+    for (std::size_t k = 0; k < areas.size(); ++k)
+      yaml.exact(composed.mesh.regions[k], areas[k] / (composed.block.width() * composed.block.height()));
+    yaml.end();
+    if (const auto& inclusions = composed.placement.inclusions; !inclusions.empty()) {
+      yaml.integer("inclusions", static_cast<long>(inclusions.size()));
+      if (std::isfinite(composed.placement.smallest_gap))
+        yaml.exact("smallest_gap", composed.placement.smallest_gap, "m");
+      yaml.integer("relaxed", composed.placement.relaxed,
+                   "inclusions that found room only after others had moved");
+      yaml.integer("moved", composed.placement.moved + composed.mended, "repaired");
+      yaml.integer("dropped", composed.placement.dropped + composed.dropped, "repaired");
+      if (recipe.composite == Composite::array)
+        yaml.exact("drawn_diameter", 2 * inclusions.front().half_length, "m");
+    }
+    if (!composed.drawn_area.empty())
+      yaml.number("area_error", area_error(composed), "largest, of an inclusion, meshed against drawn");
+    yaml.number("smallest_angle", quality.smallest_angle / degree, "degree");
+    yaml.number("largest_angle", quality.largest_angle / degree, "degree");
+    yaml.number("step_length", quality.step_length,
+                "m, dilatational speed times stable step at Poisson's ratio .3");
+    yaml.number("median_step_length", quality.typical_step_length, "m");
+  });
+}
+
+}  // namespace slipscale
