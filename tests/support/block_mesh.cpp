@@ -30,7 +30,7 @@ class Writer {
     entities();
     nodes();
     elements();
-    if (b.periodic_x) periodic();
+    if (b.periodic_x || b.periodic_y) periodic();
   }
 
  private:
@@ -152,17 +152,42 @@ class Writer {
     out << "$EndElements\n";
   }
 
+  /// What one entity copies from another, shifted by (dx, dy).
+  struct Link {
+    int dim, slave, master;
+    double dx, dy;
+    std::vector<std::array<int, 2>> nodes;
+  };
+
+  std::vector<Link> links() const {
+    const int a = node(0, 0), c = node(b.nx, 0), d = node(b.nx, b.ny), e = node(0, b.ny);
+    std::vector<Link> all;
+    if (b.periodic_x) {
+      all.push_back({0, 2, 1, b.width, 0, {{c, a}}});
+      Link right{1, 2, 4, b.width, 0, {}};
+      for (int j = 0; j <= b.ny; ++j) right.nodes.push_back({node(b.nx, j), node(0, j)});
+      if (!b.periodic_y) all.push_back({0, 3, 4, b.width, 0, {{d, e}}});
+      all.push_back(right);
+    }
+    if (b.periodic_y) {
+      all.push_back({0, 4, 1, 0, b.height, {{e, a}}});
+      Link top{1, 3, 1, 0, b.height, {}};
+      for (int i = 0; i <= b.nx; ++i) top.nodes.push_back({node(i, b.ny), node(i, 0)});
+      all.push_back({0, 3, 2, 0, b.height, {{d, c}}});
+      all.push_back(top);
+    }
+    return all;
+  }
+
   void periodic() {
-    const auto affine = [&] { out << "16 1 0 0 " << b.width << " 0 1 0 0 0 0 1 0 0 0 0 1\n"; };
-    out << "$Periodic\n3\n";
-    out << "0 2 1\n";
-    affine();
-    out << "1\n" << node(b.nx, 0) << ' ' << node(0, 0) << "\n0 3 4\n";
-    affine();
-    out << "1\n" << node(b.nx, b.ny) << ' ' << node(0, b.ny) << "\n1 2 4\n";
-    affine();
-    out << b.ny + 1 << '\n';
-    for (int j = 0; j <= b.ny; ++j) out << node(b.nx, j) << ' ' << node(0, j) << '\n';
+    const auto all = links();
+    out << "$Periodic\n" << all.size() << '\n';
+    for (const Link& link : all) {
+      out << link.dim << ' ' << link.slave << ' ' << link.master << '\n';
+      out << "16 1 0 0 " << link.dx << " 0 1 0 " << link.dy << " 0 0 1 0 0 0 0 1\n"
+          << link.nodes.size() << '\n';
+      for (const auto& [slave, master] : link.nodes) out << slave << ' ' << master << '\n';
+    }
     out << "$EndPeriodic\n";
   }
 

@@ -17,6 +17,7 @@ struct Block {
   Shape shape = Shape::triangles;
   bool mirrored = false;    ///< triangles: the other diagonal
   bool periodic_x = false;  ///< left and right carry matching nodes
+  bool periodic_y = false;  ///< bottom and top do
   double distortion = 0;    ///< inner nodes are moved by up to this part of the spacing, by a fixed pattern
   std::function<int(double, double)> region = [](double, double) { return 1; };
 };

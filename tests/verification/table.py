@@ -1,0 +1,65 @@
+"""Runs every verification test and writes what they found as a Markdown table.
+
+    /usr/bin/python3 tests/verification/table.py [build folder, default build/release] [--into README.md]
+
+Without --into the table goes to standard output; with it, between the two `verification table` comments of that
+file. A row that ranks disagree on appears once for each finding, with its ranks. Exit code 1 when a test fails.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+ROW = re.compile(r"^\d+: verification \| (.*)$")
+BEGIN, END = "<!-- verification table: begin -->", "<!-- verification table: end -->"
+
+
+def findings(log):
+    """Rows in the order of the tests, each with the sorted rank counts that found it."""
+    ranks, rows = {}, {}
+    for line in log.splitlines():
+        if started := re.match(r"^\s*Start\s+(\d+): \S+\.np(\d+)", line):
+            ranks[started[1]] = int(started[2])
+        elif row := ROW.match(line):
+            rows.setdefault(row[1], set()).add(ranks[line.split(":")[0]])
+    return [(tuple(row.split(" | ")), sorted(on)) for row, on in rows.items()]
+
+
+def markdown(rows):
+    lines = ["| case | quantity | expected | found | order | ranks | source |", "|---|---|---|---|---|---|---|"]
+    last = None
+    for (topic, quantity, expected, found, order, source), on in rows:
+        shown = "" if topic == last else topic
+        lines.append(f"| {shown} | {quantity} | {expected} | {found} | {order} | {' '.join(map(str, on))} | {source} |")
+        last = topic
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("build", nargs="?", default="build/release", type=pathlib.Path)
+    arguments.add_argument("--into", type=pathlib.Path, help="file that holds the two comments")
+    chosen = arguments.parse_args()
+    run = subprocess.run(["ctest", "--test-dir", chosen.build, "-L", "^verification$", "--verbose"],
+                         capture_output=True, text=True)
+    rows = findings(run.stdout)
+    if run.returncode or not rows:
+        sys.stderr.write("\n".join(run.stdout.splitlines()[-30:]) + run.stderr + "\nverification failed\n")
+        return 1
+    table = markdown(rows)
+    if not chosen.into:
+        print(table, end="")
+        return 0
+    text = chosen.into.read_text()
+    if BEGIN not in text or END not in text:
+        sys.stderr.write(f"{chosen.into} lacks the comments '{BEGIN}' and '{END}': put them where the table belongs\n")
+        return 2
+    before, rest = text.split(BEGIN, 1)
+    chosen.into.write_text(f"{before}{BEGIN}\n{table}{END}{rest.split(END, 1)[1]}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
