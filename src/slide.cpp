@@ -47,7 +47,10 @@ void slide(Options& options) {
   const Scene scene = read_scene(options, mesh);
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
-  const Model model(mesh, materials, read_storage(options));
+  const Model::Storage storage = read_storage(options);
+  options.refuse_unread();
+  for (const std::string& note : options.notes()) print(note + "\n");
+  const Model model(mesh, materials, storage);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 

@@ -56,6 +56,11 @@ std::string manual(const std::string& program, const std::string& purpose, const
       0);
   text += wrapped(
       "",
+      "An option that has no effect in its scene stops the run. Only what a later place overrules is set "
+      "aside, with a note: a law on the command line, say, the constants of another law in the file.",
+      0);
+  text += wrapped(
+      "",
       "PETSc's own options work too, such as -log_view (where the time went) and -options_view; those "
       "it reads at its start belong on the command line.",
       0);

@@ -57,7 +57,7 @@ std::optional<std::string> Options::value(const std::string& name) const {
   if (!found.option) throw std::logic_error("option '" + name + "' is read but no schema declares it");
   const Option& option = *found.option;
   const Entry entry = lookup(name);
-  if (entry.given) {
+  if (entry.given && !aside_.contains(name)) {
     if (!entry.value && option.kind != Kind::flag)
       throw UserError("-" + name + " has no value; write after it " + value::wanted(option));
     const std::string text = entry.value ? entry.value : "true";
@@ -76,7 +76,7 @@ std::string Options::needed(const std::string& name) const {
   return *text;
 }
 
-bool Options::given(const std::string& name) const { return lookup(name).given; }
+bool Options::given(const std::string& name) const { return !aside_.contains(name) && lookup(name).given; }
 
 double Options::real(const std::string& name) const {
   const auto x = find_real(name);

@@ -49,6 +49,18 @@ std::string respelled(const std::string& name, const Schema& schema, const names
   return "";
 }
 
+/// PETSc keeps the spelling it meets first and folds later ones into it, so that `-Time_end` behind
+/// `-time_end` leaves no trace in its database.
+std::vector<std::string> with_other_spellings(std::vector<std::string> names, const Origins& origins) {
+  std::map<std::string, std::string> stored;
+  for (const std::string& name : names) stored.emplace(spelling::fold(name), name);
+  for (const auto& [written, origin] : origins) {
+    const auto found = stored.find(spelling::fold(written));
+    if (found != stored.end() && found->second != written) names.push_back(written);
+  }
+  return names;
+}
+
 void check_fallback(const Option& option) {
   if (option.fallback == required || option.fallback == absent || option.fallback.empty()) return;
   try {
@@ -60,10 +72,10 @@ void check_fallback(const Option& option) {
 
 }  // namespace
 
-Options::Options(std::string program, Schema schema)
-    : program_(std::move(program)), schema_(std::move(schema)) {
+Options::Options(std::string program, Schema schema, Origins origins)
+    : program_(std::move(program)), schema_(std::move(schema)), origins_(std::move(origins)) {
   for (const Option& option : schema_) check_fallback(option);
-  typed_ = unread();
+  typed_ = with_other_spellings(unread(), origins_);
   for (const std::string& name : typed_) {
     refuse_if_unknown(name);
     const Match found = match(name);

@@ -57,9 +57,9 @@ int guarded(const std::string& program, const std::function<void()>& work) {
 
 /// The scenes one after the other, then the command line over them.
 void fill_database(const CommandLine& line, const std::vector<std::string>& scenes,
-                   std::vector<char*> arguments) {
+                   const std::vector<char*>& arguments) {
   for (std::size_t k = 0; k < scenes.size(); ++k) insert_scene(line.scene_files[k], scenes[k]);
-  petsc(PetscOptionsInsertArgs(nullptr, static_cast<int>(arguments.size()) - 2, arguments.data() + 1));
+  insert_arguments(arguments);
 }
 
 /// PETSc lists options nobody read, at length; we have told the user already, and better.
@@ -80,7 +80,7 @@ int run_in_petsc(const Program& program, CommandLine line, const std::vector<std
   petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
   const int code = guarded(program.name, [&] {
     fill_database(line, scenes, arguments);
-    Options options(program.name, program.schema);
+    Options options(program.name, program.schema, written_options());
     program.run(options);
   });
   silence_leftovers();

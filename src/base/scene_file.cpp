@@ -52,6 +52,10 @@ std::string place(const std::string& text) {
   return format(" near line %zu (%.60s)", good + 1, shown.c_str());
 }
 
+/// Who wrote what so far, and where PETSc is reading now.
+Origins origins;
+Origin reading;
+
 /// Names set by the file that is being read, folded, and the fault found in them.
 struct Watch {
   bool active = false, merges = false;
@@ -61,6 +65,7 @@ struct Watch {
 
 PetscErrorCode note_option(const char name[], const char value[], void*) {
   (void)value;
+  origins[name] = reading;
   if (!watch.active || !watch.fault.empty()) return 0;
   const std::string folded = spelling::fold(name);
   if (++watch.times[folded] > 1 && !watch.merges)
@@ -68,6 +73,12 @@ PetscErrorCode note_option(const char name[], const char value[], void*) {
   if (names::petsc_system(folded) || folded == "help")
     watch.fault = std::string(name) + " is read when PETSc starts; give it on the command line, as -" + name;
   return 0;
+}
+
+/// From now on, what PETSc's database is told comes from `place`, which is later than all before.
+void begin_reading(const std::string& place) {
+  if (reading.order == 0) petsc(PetscOptionsMonitorSet(note_option, nullptr, nullptr));
+  reading = {reading.order + 1, place};
 }
 
 std::string explained(const std::string& message) {
@@ -112,9 +123,7 @@ std::string read_on_all(const std::string& option, const std::string& file) {
 }
 
 void insert_scene(const std::string& file, const std::string& text) {
-  static bool watching = false;
-  if (!watching) petsc(PetscOptionsMonitorSet(note_option, nullptr, nullptr));
-  watching = true;
+  begin_reading(file);
   // A merge key (`<<: *base`) is there to be overridden: the same name twice is then meant.
   watch = {.active = true, .merges = text.find("<<") != std::string::npos, .times = {}, .fault = {}};
   const PetscErrorCode code = PetscOptionsInsertStringYAML(nullptr, text.c_str());
@@ -129,5 +138,12 @@ void insert_scene(const std::string& file, const std::string& text) {
   petsc(PetscOptionsClear(nullptr));
   throw UserError(file + ": " + watch.fault);
 }
+
+void insert_arguments(std::vector<char*> arguments) {
+  begin_reading("the command line");
+  petsc(PetscOptionsInsertArgs(nullptr, static_cast<int>(arguments.size()) - 2, arguments.data() + 1));
+}
+
+const Origins& written_options() { return origins; }
 
 }  // namespace slipscale

@@ -6,6 +6,12 @@
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
+namespace {
+
+const std::vector<std::string> memory_options = {"friction_length", "friction_time", "friction_rate",
+                                                 "friction_rate_reference", "friction_threshold"};
+
+}  // namespace
 
 Schema friction_schema() {
   return {
@@ -28,21 +34,30 @@ Schema friction_schema() {
 FrictionChoice read_friction(const Options& options, const Surface& surface) {
   FrictionChoice choice;
   const std::string law = options.text("friction_law");
+  if (law == "none")
+    options.refuse_idle({"friction_coefficient"},
+                        {"with -friction_law none", "give -friction_law coulomb", {"friction_law"}});
+  if (law != "regularized")
+    options.refuse_idle(memory_options,
+                        {"with -friction_law " + law, "give -friction_law regularized", {"friction_law"}});
   if (law == "none") return choice;
   choice.law = law == "coulomb" ? FrictionChoice::Law::coulomb : FrictionChoice::Law::regularized;
   choice.coefficient = options.real("friction_coefficient");
   if (choice.law == FrictionChoice::Law::coulomb) return choice;
   choice.stored_strength = options.text("friction_threshold") == "regularized";
   choice.by_slip_rate = options.text("friction_rate") == "slip";
-  const auto time = options.find_real("friction_time");
-  if (time && options.given("friction_length"))
-    throw UserError("-friction_time contradicts -friction_length; give the relaxation time or the length");
   if (choice.by_slip_rate) {
-    if (time)
-      throw UserError("-friction_time has no meaning with -friction_rate slip; give -friction_length");
+    options.refuse_idle(
+        {"friction_time"},
+        {"with -friction_rate slip", "give -friction_length in its place", {"friction_rate"}});
     choice.length = options.real("friction_length");
     choice.rate_reference = options.real("friction_rate_reference");
-  } else if (time) {
+    return choice;
+  }
+  options.refuse_idle({"friction_rate_reference"},
+                      {"with -friction_rate surface", "give -friction_rate slip", {"friction_rate"}});
+  options.refuse_both("friction_time", "friction_length");
+  if (const auto time = options.find_real("friction_time")) {
     choice.time = *time;
   } else {
     choice.length = options.real("friction_length");

@@ -28,11 +28,19 @@ Schema surface_schema() {
   };
 }
 
+const Idle without_surface{"without -surface_boundary", "name the boundary that meets the surface"};
+
 bool has_surface(const Options& options) { return options.given("surface_boundary"); }
 
 Surface read_surface(const Options& options) {
-  return {options.text("surface_boundary"), options.real("surface_height"), options.real("surface_speed"),
-          options.real("surface_speed_ramp")};
+  Surface surface{options.text("surface_boundary"), options.real("surface_height"),
+                  options.real("surface_speed"), 0};
+  if (surface.speed == 0)
+    options.refuse_idle({"surface_speed_ramp"},
+                        {"with -surface_speed 0", "give the surface a speed", {"surface_speed"}});
+  else
+    surface.ramp = options.real("surface_speed_ramp");
+  return surface;
 }
 
 }  // namespace slipscale

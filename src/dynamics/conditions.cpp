@@ -1,5 +1,6 @@
 #include "slipscale/dynamics/conditions.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 #include "slipscale/base/print.hpp"
@@ -18,6 +19,48 @@ std::optional<double> prescribed(const Options& options, const std::string& name
 std::string component_text(const std::optional<double>& displacement) {
   if (!displacement) return "free";
   return *displacement == 0 ? "fixed" : format("%g m", *displacement);
+}
+
+/// Whether some edge of the boundary faces along x, along y. Collective.
+std::array<bool, 2> facing(const Mesh& mesh, const Boundary& boundary) {
+  int found[2] = {0, 0};
+  for (const BoundaryEdge& edge : boundary.edges)
+    for (int axis = 0; axis < 2; ++axis)  // rounding tilts a straight side by far less
+      found[axis] |= std::abs(edge.outward[axis]) > 1e-6 * std::hypot(edge.outward[0], edge.outward[1]);
+  MPI_Allreduce(MPI_IN_PLACE, found, 2, MPI_INT, MPI_MAX,
+                PetscObjectComm(reinterpret_cast<PetscObject>(mesh.dm.get())));
+  return {found[0] != 0, found[1] != 0};
+}
+
+/// A traction moves nothing where the motion along it is prescribed.
+void read_tractions(const Options& options, const Mesh& mesh, const Boundary& boundary,
+                    BoundaryCondition& condition) {
+  const std::string prefix = "boundary_" + boundary.name + "_";
+  const auto& held = condition.displacement;
+  const Idle idle{"where the motion along it is prescribed",
+                  "leave the boundary free along it",
+                  {prefix + "x", prefix + "y"}};
+  if (held[0])
+    options.refuse_idle({prefix + "shear"}, idle);
+  else
+    condition.shear = options.real(prefix + "shear");
+  const auto faces = facing(mesh, boundary);
+  if ((held[0] || !faces[0]) && (held[1] || !faces[1]))
+    options.refuse_idle({prefix + "pressure"}, idle);
+  else
+    condition.pressure = options.real(prefix + "pressure");
+}
+
+void read_ramp(const Options& options, const std::string& prefix, BoundaryCondition& condition) {
+  const auto moves = [](const std::optional<double>& displacement) { return displacement.value_or(0) != 0; };
+  if (moves(condition.displacement[0]) || moves(condition.displacement[1]) || condition.pressure != 0 ||
+      condition.shear != 0)
+    condition.ramp = options.real(prefix + "ramp");
+  else
+    options.refuse_idle({prefix + "ramp"},
+                        {"where no displacement, pressure or shear is imposed",
+                         "impose one",
+                         {prefix + "x", prefix + "y", prefix + "pressure", prefix + "shear"}});
 }
 
 }  // namespace
@@ -48,9 +91,8 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
           "' lies inside the body (a periodic seam or an interface), where no condition can act; remove it");
     BoundaryCondition condition{boundary.name, {}, 0, 0, 0};
     condition.displacement = {prescribed(options, prefix + "x"), prescribed(options, prefix + "y")};
-    condition.pressure = options.real(prefix + "pressure");
-    condition.shear = options.real(prefix + "shear");
-    condition.ramp = options.real(prefix + "ramp");
+    read_tractions(options, mesh, boundary, condition);
+    read_ramp(options, prefix, condition);
     conditions.push_back(condition);
   }
   return conditions;

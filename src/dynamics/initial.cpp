@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "slipscale/contact/surface.hpp"
 #include "slipscale/dynamics/conditions.hpp"
 
 namespace slipscale {
@@ -41,8 +42,16 @@ InitialState read_initial(const Options& options) {
   if (velocity.size() != 2) throw UserError("-initial_velocity needs two numbers vx,vy in m/s");
   initial.velocity = {velocity[0], velocity[1]};
   initial.amplitude = options.real("initial_sine_amplitude");
-  if (initial.amplitude != 0) initial.wavelength = options.real("initial_sine_wavelength");
-  initial.gap = options.real("initial_gap");
+  if (initial.amplitude != 0)
+    initial.wavelength = options.real("initial_sine_wavelength");
+  else
+    options.refuse_idle(
+        {"initial_sine_wavelength"},
+        {"without -initial_sine_amplitude", "give the amplitude", {"initial_sine_amplitude"}});
+  if (has_surface(options))
+    initial.gap = options.real("initial_gap");
+  else
+    options.refuse_idle({"initial_gap"}, without_surface);
   initial.pressure = options.real("initial_pressure");
   initial.shear = options.real("initial_shear");
   return initial;

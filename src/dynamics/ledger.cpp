@@ -87,10 +87,9 @@ void close_balance(Energy& e, double start) {
   const double supplied = e.loads + e.supports + e.body_force + e.surface_drive;
   const double lost = e.friction_heat + e.impact_loss + e.damping + e.scheme_dissipation;
   e.residual = e.kinetic + e.strain - start - supplied + lost;
-  e.flowed = std::abs(e.kinetic) + std::abs(e.strain) + std::abs(start) + std::abs(e.loads) +
-             std::abs(e.supports) + std::abs(e.body_force) + std::abs(e.surface_drive) +
-             std::abs(e.friction_heat) + std::abs(e.impact_loss) + std::abs(e.damping) +
-             std::abs(e.scheme_dissipation);
+  e.flowed += std::abs(e.strain) + std::abs(start) + std::abs(e.loads) + std::abs(e.supports) +
+              std::abs(e.body_force) + std::abs(e.surface_drive) + std::abs(e.friction_heat) +
+              std::abs(e.impact_loss) + std::abs(e.damping) + std::abs(e.scheme_dissipation);
 }
 
 }  // namespace slipscale

@@ -84,12 +84,10 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
     refuse_held_contact(scene.conditions, scene.surface->boundary);
     scene.friction = read_friction(options, *scene.surface);
   } else {
-    for (const char* option : {"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
-                               "friction_coefficient", "friction_length", "friction_time", "friction_rate",
-                               "friction_rate_reference", "friction_threshold"})
-      if (options.given(option))
-        throw UserError("-" + std::string(option) +
-                        " has no effect without -surface_boundary; name the boundary that meets the surface");
+    options.refuse_idle({"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
+                         "friction_coefficient", "friction_length", "friction_time", "friction_rate",
+                         "friction_rate_reference", "friction_threshold"},
+                        without_surface);
   }
   if (const auto measured = options.find_text("history_boundary"))
     scene.measured = known_boundary(mesh, *measured, "history_boundary").name;
@@ -101,8 +99,12 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
 TimeChoice read_time(const Options& options) {
   TimeChoice time;
   const std::string step = options.text("time_step");
-  if (step != "auto") time.step = std::strtod(step.c_str(), nullptr);
-  time.safety = options.real("time_safety");
+  if (step == "auto") {
+    time.safety = options.real("time_safety");
+  } else {
+    time.step = std::strtod(step.c_str(), nullptr);
+    options.refuse_idle({"time_safety"}, {"with -time_step " + step, "give -time_step auto", {"time_step"}});
+  }
   time.end = options.real("time_end");
   return time;
 }

@@ -185,6 +185,7 @@ Energy SlidingBody::local_energy() const {
     for (int axis = 0; axis < 2; ++axis) {
       const double v = v_.data()[i][axis], a = a_.data()[i][axis], m = model_.mass[i];
       energy.kinetic += 0.5 * m * v * v - correction * m * a * a;
+      energy.flowed += 0.5 * m * v * v + correction * m * a * a;  // the two may cancel to rounding
       energy.strain += 0.5 * kept_[i][axis] * force_[i][axis];
       energy.body_force += m * scene_.body_acceleration[axis] * kept_[i][axis];
     }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "slipscale/base/print.hpp"
+#include "slipscale/contact/surface.hpp"
 #include "slipscale/solid/mass.hpp"
 #include "summary.hpp"
 
@@ -74,14 +75,21 @@ RecordChoice read_record(const Options& options) {
   if (points.size() % 2 != 0)
     throw UserError("-history_points has an odd count of numbers; give x1,y1,x2,y2,... in m");
   for (std::size_t k = 0; k < points.size(); k += 2) choice.points.push_back({points[k], points[k + 1]});
-  const std::string contact = options.text("contact_every");
-  if (contact != "auto") choice.contact_every = whole_steps(std::strtod(contact.c_str(), nullptr));
+  if (has_surface(options)) {
+    const std::string contact = options.text("contact_every");
+    if (contact != "auto") choice.contact_every = whole_steps(std::strtod(contact.c_str(), nullptr));
+  } else {
+    options.refuse_idle({"contact_every"}, without_surface);
+  }
+  options.refuse_both("fields_every", "fields_times");
   if (const auto every = options.find_integer("fields_every"))
     choice.fields_every = static_cast<long>(*every);
   choice.fields_times = options.reals("fields_times");
-  if (choice.fields_every && !choice.fields_times.empty())
-    throw UserError("-fields_every contradicts -fields_times; give one of them");
-  choice.quantities = field_quantities(options.text("fields_quantities"));
+  if (choice.fields_every || !choice.fields_times.empty())
+    choice.quantities = field_quantities(options.text("fields_quantities"));
+  else
+    options.refuse_idle({"fields_quantities"},
+                        {"without -fields_every or -fields_times", "give one of them"});
   choice.progress = options.text("progress");
   return choice;
 }

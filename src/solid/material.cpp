@@ -10,8 +10,6 @@
 namespace slipscale {
 namespace {
 
-const char* const keys[] = {"young", "poisson", "stiffness", "density", "file"};
-
 Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
   if (c.size() != 6)
     throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " +
@@ -41,18 +39,12 @@ Material from_file(const std::string& option, const std::string& path) {
 
 /// The material written under `prefix` = "material_<region>_".
 Material read_one(const Options& options, const std::string& prefix) {
-  if (const auto path = options.find_text(prefix + "file")) {
-    for (const char* key : {"young", "poisson", "stiffness", "density"})
-      if (options.given(prefix + key))
-        throw UserError("-" + prefix + key + " contradicts -" + prefix +
-                        "file, which already sets it; give one of them");
-    return from_file(prefix + "file", *path);
-  }
+  for (const char* key : {"young", "poisson", "stiffness", "density"})
+    options.refuse_both(prefix + key, prefix + "file");
+  for (const char* key : {"young", "poisson"}) options.refuse_both(prefix + key, prefix + "stiffness");
+  if (const auto path = options.find_text(prefix + "file")) return from_file(prefix + "file", *path);
   Material material;
   if (options.given(prefix + "stiffness")) {
-    for (const char* key : {"young", "poisson"})
-      if (options.given(prefix + key))
-        throw UserError("-" + prefix + key + " contradicts -" + prefix + "stiffness; give one of them");
     material.stiffness = voigt("-" + prefix + "stiffness", options.reals(prefix + "stiffness"));
     material.description = six_numbers(material.stiffness);
   } else {
@@ -65,9 +57,28 @@ Material read_one(const Options& options, const std::string& prefix) {
   return material;
 }
 
+std::vector<std::string> keys_of(const std::string& prefix) {
+  std::vector<std::string> names;
+  for (const char* key : {"young", "poisson", "stiffness", "density", "file"}) names.push_back(prefix + key);
+  return names;
+}
+
 bool mentioned(const Options& options, const std::string& prefix) {
-  return std::any_of(std::begin(keys), std::end(keys),
-                     [&](const char* key) { return options.given(prefix + key); });
+  const auto names = keys_of(prefix);
+  return std::any_of(names.begin(), names.end(), [&](const auto& name) { return options.given(name); });
+}
+
+/// A material for all others is idle where there are no others.
+void refuse_idle_shares(const Options& options, const std::vector<std::string>& regions) {
+  std::vector<std::string> own, shared = keys_of("material_all_");
+  for (const std::string& region : regions) {
+    if (region == "all" || !mentioned(options, "material_" + region + "_")) return;
+    const auto names = keys_of("material_" + region + "_");
+    own.insert(own.end(), names.begin(), names.end());
+  }
+  shared.push_back("material_file");
+  options.refuse_idle(shared,
+                      {"since every region has a material of its own", "remove that of a region", own});
 }
 
 }  // namespace
@@ -107,15 +118,14 @@ Schema material_schema() {
 
 std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions) {
   std::vector<Material> materials;
-  const auto shared_file = options.find_text("material_file");
+  for (const std::string& key : keys_of("material_all_")) options.refuse_both("material_file", key);
+  refuse_idle_shares(options, regions);
   const bool shared = mentioned(options, "material_all_");
-  if (shared_file && shared)
-    throw UserError("-material_file contradicts the material of 'all'; give one of them");
   for (const std::string& region : regions) {
     const std::string own = "material_" + region + "_";
     if (mentioned(options, own))
       materials.push_back(read_one(options, own));
-    else if (shared_file)
+    else if (const auto shared_file = options.find_text("material_file"))
       materials.push_back(from_file("material_file", *shared_file));
     else if (shared)
       materials.push_back(read_one(options, "material_all_"));

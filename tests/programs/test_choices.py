@@ -9,8 +9,8 @@ from scenes import SIDE, SQUEAL, block
 
 SCENE = {**SQUEAL, "time_end": 4e-6, "time_step": 2e-8, "contact_every": 1}  # 200 steps
 LAWS = {
-    "none": {"friction_law": "none"},
-    "coulomb": {"friction_law": "coulomb"},
+    "none": {"friction_law": "none", "friction_coefficient": None, "friction_time": None, "friction_threshold": None},
+    "coulomb": {"friction_law": "coulomb", "friction_time": None, "friction_threshold": None},
     "time, instantaneous": {"friction_threshold": "instantaneous"},
     "time, regularized": {"friction_threshold": "regularized"},
     "length, instantaneous": {"friction_time": None, "friction_length": 1.2e-6, "friction_threshold": "instantaneous"},

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,16 +45,38 @@ using Schema = std::vector<Option>;
 
 Schema operator+(Schema left, const Schema& right);
 
+/// Where the user wrote an option. The later place has the last word: the scene files one after the other,
+/// then the command line.
+struct Origin {
+  int order = 0;      ///< 0: before all of these, in PETSc's own files and variables
+  std::string place;  ///< "scene.yaml"
+};
+using Origins = std::map<std::string, Origin>;  ///< by the name as it was written last
+
+/// Why options have no effect in a scene, in words that complete a sentence.
+struct Idle {
+  std::string why;                       ///< after "has no effect": "with -friction_law coulomb"
+  std::string cure;                      ///< after "remove it, or": "give -friction_law regularized"
+  std::vector<std::string> causes = {};  ///< the options that make it so, where they can be overruled
+};
+
 /// The options of one run: what command line, YAML files and defaults say, checked against a schema.
 ///
 /// Every reader throws `UserError` with one sentence when the value is missing, is not of its kind or is out
 /// of range. Names are given without dash and with the region or boundary filled in:
-/// `real("material_matrix_young")`. All members are collective in effect: every rank sees the same database
+/// `real("material_matrix_young")`.
+///
+/// An option that is given either has an effect or stops the run: a reader asks only for what its scene has
+/// and passes the rest to `refuse_idle`, and `refuse_unread` finds what everybody forgot. What a later place
+/// makes idle is set aside instead, as a value that it repeats would be: a law on the command line overrules
+/// the constants of another law in the file. An option set aside counts as not given.
+///
+/// All members are collective in effect: every rank sees the same database
 /// and throws the same error.
 class Options {
  public:
   /// Checks the PETSc options database against the schema as far as that is possible without a mesh.
-  Options(std::string program, Schema schema);
+  Options(std::string program, Schema schema, Origins origins = {});
 
   double real(const std::string& name) const;
   std::optional<double> find_real(const std::string& name) const;
@@ -63,12 +86,26 @@ class Options {
   std::optional<std::string> find_text(const std::string& name) const;
   bool flag(const std::string& name) const;
   std::vector<double> reals(const std::string& name) const;  ///< empty when absent
-  bool given(const std::string& name) const;                 ///< on the command line or in the file
+  bool given(const std::string& name) const;                 ///< on the command line or in a file
 
   /// Tells which names may stand for a placeholder: `know_names("region", {"matrix", "inclusion", "all"})`.
   /// An option like `-material_martix_young` then stops the run with the nearest known name. Names that
   /// differ only in case are refused, because PETSc's database folds case.
   void know_names(const std::string& placeholder, const std::vector<std::string>& names);
+
+  /// Options that have no effect in this scene. Throws UserError for one that is given, unless it is set
+  /// aside because one of the causes comes from a later place.
+  void refuse_idle(const std::vector<std::string>& names, const Idle& idle) const;
+
+  /// Two options that say the same in two ways. The one of the later place counts and the other is set aside;
+  /// from the same place they contradict one another: UserError.
+  void refuse_both(const std::string& one, const std::string& other) const;
+
+  /// Stops on any declared option that is given and that nobody has read. Call when the scene is read.
+  void refuse_unread() const;
+
+  /// What was set aside, one sentence each, for the user to see.
+  const std::vector<std::string>& notes() const { return notes_; }
 
   /// Stops on any option that neither the schema declares nor PETSc has used. Call when set-up is done.
   void refuse_unknown() const;
@@ -85,12 +122,17 @@ class Options {
   std::optional<std::string> value(const std::string& name) const;
   std::string needed(const std::string& name) const;
   void refuse_if_unknown(const std::string& name) const;
+  Origin origin(const std::string& name) const;
+  bool overruled(const std::string& name, const std::vector<std::string>& by, const std::string& why) const;
 
   std::string program_;
   Schema schema_;
   std::map<std::string, std::vector<std::string>> names_;  ///< placeholder -> what may stand for it
   std::vector<std::string> typed_;                         ///< given by the user, not read by PETSc itself
+  Origins origins_;
   mutable std::map<std::string, std::string> effective_;
+  mutable std::set<std::string> aside_;
+  mutable std::vector<std::string> notes_;
 };
 
 /// The manual: every option with unit, range, default and help, grouped by the first word of the name.

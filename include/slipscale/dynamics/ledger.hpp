@@ -68,7 +68,8 @@ class EnergyLedger {
   std::vector<Vector2> scratch_;  ///< all boundary forces by slot; kept so that a step allocates nothing
 };
 
-/// Fills `residual` and `flowed` from the other terms; `start` is Ê at t = 0.
+/// Fills `residual` from the other terms and adds the sizes of all but the kinetic one to `flowed`; `start`
+/// is Ê at t = 0.
 void close_balance(Energy& energy, double start);
 
 }  // namespace slipscale

@@ -62,7 +62,7 @@ class SlidingBody {
   void find_velocity(const StepCoefficients& step);
 
   void set_contact_nodes();
-  Energy local_energy() const;  ///< this rank's terms; residual and flowed left open
+  Energy local_energy() const;  ///< this rank's terms; no residual, flowed kinetic only
   NodalState state(bool with_acceleration) const;
 
   MPI_Comm comm_;
