@@ -1,7 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw.hpp"
+#include "cells.hpp"
+#include "family.hpp"
 #include "gaps.hpp"
 #include "plane.hpp"
 #include "separation.hpp"
@@ -43,10 +44,19 @@ class ArrayPlacer {
 
   Inclusion of_diameter(double diameter) const { return shaped(family_, 0, diameter, family_.angle); }
 
-  /// Of the given diameter, or else of the diameter that gives the fraction: one inclusion to a cell.
+  /// Sides that do not cut take the place of one inclusion in each shifted row.
+  bool short_rows() const { return hexagonal() && room_.edge == Edge::inside && !room_.periodic[0]; }
+
+  /// The block's area over the number of inclusions, halves at opposite sides counted as one, m².
+  double area_for_each() const {
+    const int count = array_.columns * array_.rows - (short_rows() ? array_.rows / 2 : 0);
+    return room_.block.width() * room_.block.height() / count;
+  }
+
+  /// Of the given diameter, or else of the diameter that gives the fraction.
   Inclusion model() const {
     if (family_.diameter > 0) return of_diameter(family_.diameter);
-    return of_diameter(std::sqrt(family_.fraction * spacing_[0] * spacing_[1] / area(of_diameter(1))));
+    return of_diameter(std::sqrt(family_.fraction * area_for_each() / area(of_diameter(1))));
   }
 
   /// The gap to the nearest neighbour in the unlimited array; an odd number of rows beyond the sides does not
@@ -82,7 +92,7 @@ class ArrayPlacer {
           format("-gap %g is larger than the spacing of the array, %g m by %g m; give a smaller gap, "
                  "or fewer -columns and -rows",
                  room_.gap, spacing_[0], spacing_[1]));
-    const double fraction = area(of_diameter(fits)) / (spacing_[0] * spacing_[1]);
+    const double fraction = area(of_diameter(fits)) / area_for_each();
     const bool by_diameter = family_.diameter > 0;
     const double given = by_diameter ? family_.diameter : family_.fraction;
     throw UserError(
@@ -105,7 +115,7 @@ class ArrayPlacer {
       // periodic side they are the same.
       const bool cut = room_.edge == Edge::cut && !room_.periodic[0];
       const int first = shifted ? (cut ? -1 : 0) : 0;
-      const int last = array_.columns - (shifted && room_.edge == Edge::inside && !room_.periodic[0] ? 1 : 0);
+      const int last = array_.columns - (shifted && short_rows() ? 1 : 0);
       for (int i = first; i < last; ++i) {
         const double x = std::fmod(i + (shifted ? 1.0 : 0.5), array_.columns + (cut ? 1 : 0));
         inclusion.centre = room_.block.low + Vector2{x * spacing_[0], (j + 0.5) * spacing_[1]};
@@ -124,7 +134,7 @@ class ArrayPlacer {
         continue;
       }
       Inclusion moved = inclusions[k];
-      moved.centre = moved.centre + fault.way;
+      moved.centre = Domain{room_.block, room_.periodic}.wrapped(moved.centre + fault.way);
       if (norm(fault.way) < array_.repair && !side_fault(moved, room_).found && is_free(moved, k)) {
         inclusions[k++] = moved;
         ++placement_.moved;

@@ -8,12 +8,14 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/morphology/drawing.hpp"
+#include "slipscale/morphology/smooth.hpp"
 
 namespace slipscale {
 namespace {
 
 constexpr int repairs = 8;  ///< meshes made before a recipe is given up
 constexpr double most_cells = 1e8;
+constexpr double smoothed_below = 35 * std::numbers::pi / 180;  ///< a cell with such an angle costs time step
 
 void refuse_too_many(double cells) {
   if (cells > most_cells)
@@ -50,6 +52,7 @@ void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, std::si
                  GmshModel& gmsh, Composed& composed) {
   gmsh.mesh(draw(composed.block, pieces), region_names(recipe), recipe.room, recipe.mesh);
   composed.mesh = gmsh.read();
+  gmsh.move(composed.mesh, smooth(composed.mesh, smoothed_below));
   composed.quality = quality(composed.mesh);
   composed.drawn_area.assign(inclusions, 0);
 }
@@ -102,17 +105,20 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
   placement = recipe.composite == Composite::random
                   ? place_at_random(recipe.families, recipe.room, recipe.seed)
                   : place_in_array(recipe.families.front(), recipe.room, recipe.array);
+  Random random(recipe.seed);
   std::vector<Vector2> drawn;
   for (const Inclusion& inclusion : placement.inclusions) drawn.push_back(inclusion.centre);
   for (int round = 0;; ++round) {
     mesh_pieces(recipe, polygons(placement.inclusions, recipe.room, recipe.mesh.size.interface),
                 placement.inclusions.size(), gmsh, composed);
     if (good_enough(composed.quality, recipe.mesh.worst_angle) || round == repairs) break;
-    const Mending done =
-        mend(placement.inclusions, drawn, recipe.room, composed.mesh, recipe.mesh.worst_angle, recipe.repair);
-    if (done.moved + done.dropped == 0) break;
-    composed.mended += done.moved;
-    composed.dropped += done.dropped;
+    const Mending mending =
+        mend(placement.inclusions, drawn, recipe.room, composed.mesh, recipe.mesh.worst_angle, recipe.repair,
+             recipe.composite == Composite::random ? &random : nullptr);
+    if (!mending.done()) break;
+    composed.moved += mending.moved;
+    composed.redrawn += mending.redrawn;
+    composed.dropped += mending.dropped;
   }
   std::ranges::fill(placement.fraction, 0.0);
   for (std::size_t k = 0; k < placement.inclusions.size(); ++k) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw.hpp"
+#include "family.hpp"
 #include "plane.hpp"
 #include "sides.hpp"
 #include "slipscale/base/error.hpp"

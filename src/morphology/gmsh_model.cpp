@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "msh_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/morphology/mesh_size.hpp"
 
@@ -69,6 +70,24 @@ void make_periodic(const Drawing& drawing, const Box& block, const std::array<bo
     gmsh::model::mesh::setPeriodic(1, drawing.side(top), drawing.side(bottom), shifted(0, block.height()));
 }
 
+/// gmsh places nodes of a periodic side to some 1e-12 of its length only: make it the last bit.
+void match_periodic_nodes(const Drawing& drawing, const Box& block, const std::array<bool, 2>& periodic) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!periodic[axis]) continue;
+    for (int segment : drawing.side(axis == 0 ? right : top)) {
+      int master = 0;
+      std::vector<std::size_t> nodes, masters;
+      std::vector<double> affine, x, parameters;
+      gmsh::model::mesh::getPeriodicNodes(1, segment, master, nodes, masters, affine);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        gmsh::model::mesh::getNode(masters[i], x, parameters);
+        x[axis] = block.high[axis];
+        gmsh::model::mesh::setNode(nodes[i], x, {});
+      }
+    }
+  }
+}
+
 /// Interfaces keep the points that were drawn: the polygon's area is right only with those.
 void divide_interfaces(const Drawing& drawing, double length) {
   for (std::size_t k = 0; k < drawing.segments.size(); ++k) {
@@ -104,6 +123,7 @@ void set_sizes(const SizeField& field, const MeshSize& size) {
 /// Node tags of gmsh, densely numbered in their order.
 struct NodeTable {
   std::vector<Vector2> x;
+  std::vector<std::size_t> tags;
   std::unordered_map<std::size_t, int> number;
 };
 
@@ -113,8 +133,10 @@ NodeTable read_nodes() {
   gmsh::model::mesh::getNodes(tags, x, parameters, -1, -1, false, false);
   NodeTable table;
   for (std::size_t i = 0; i < tags.size(); ++i)
-    if (table.number.emplace(tags[i], static_cast<int>(table.x.size())).second)
+    if (table.number.emplace(tags[i], static_cast<int>(table.x.size())).second) {
       table.x.push_back({x[3 * i], x[3 * i + 1]});
+      table.tags.push_back(tags[i]);
+    }
   return table;
 }
 
@@ -192,6 +214,7 @@ void GmshModel::mesh(const Drawing& drawing, const std::vector<std::string>& reg
     set_sizes(field, choice.size);
     gmsh::model::mesh::generate(2);
     gmsh::model::mesh::removeSizeCallback();
+    match_periodic_nodes(drawing, room.block, room.periodic);
   });
 }
 
@@ -213,6 +236,7 @@ void GmshModel::mesh_grid(const Box& block, const std::array<bool, 2>& periodic,
     gmsh::model::mesh::setTransfiniteSurface(1, "AlternateLeft");
     if (cell == CellShape::quadrilateral) gmsh::model::mesh::setRecombine(2, 1);
     gmsh::model::mesh::generate(2);
+    match_periodic_nodes(drawing, block, periodic);
   });
   region_of_.assign(2, 0);
   if (regions_.size() > 1) {
@@ -224,7 +248,7 @@ void GmshModel::mesh_grid(const Box& block, const std::array<bool, 2>& periodic,
   in_gmsh([&] { name_regions(regions_, region_of_); });
 }
 
-CompositeMesh GmshModel::read() const {
+CompositeMesh GmshModel::read() {
   CompositeMesh mesh;
   mesh.regions = regions_;
   in_gmsh([&] {
@@ -244,12 +268,21 @@ CompositeMesh GmshModel::read() const {
       }
     }
     mesh.nodes = std::move(nodes.x);
+    node_tags_ = std::move(nodes.tags);
   });
   return mesh;
 }
 
+void GmshModel::move(const CompositeMesh& mesh, const std::vector<int>& nodes) {
+  in_gmsh([&] {
+    for (int node : nodes)
+      gmsh::model::mesh::setNode(node_tags_[node], {mesh.nodes[node][0], mesh.nodes[node][1], 0}, {});
+  });
+}
+
 void GmshModel::write(const std::string& path) const {
   in_gmsh([&] { gmsh::write(path); });
+  sort_periodic_pairs(path);
 }
 
 }  // namespace slipscale

@@ -7,10 +7,13 @@
 #include <optional>
 #include <set>
 
+#include "cells.hpp"
 #include "slipscale/morphology/quality.hpp"
 
 namespace slipscale {
 namespace {
+
+constexpr int attempts = 2000;  ///< to find a free place
 
 double distance_to(const Vector2& x, const Inclusion& inclusion, const Room& room) {
   Inclusion point;
@@ -66,6 +69,7 @@ std::optional<Inclusion> better_place(const std::vector<Inclusion>& inclusions, 
       const double angle = 2 * std::numbers::pi * direction / 16;
       Inclusion moved = inclusions[k];
       moved.centre = {drawn[0] + part * reach * std::cos(angle), drawn[1] + part * reach * std::sin(angle)};
+      moved.centre = morphology::Domain{room.block, room.periodic}.wrapped(moved.centre);
       if (moved.centre == inclusions[k].centre || side_fault(moved, room).found) continue;
       if (const double around = room_around(moved, k, inclusions, room); around > most) {
         most = around;
@@ -75,17 +79,41 @@ std::optional<Inclusion> better_place(const std::vector<Inclusion>& inclusions, 
   return best;
 }
 
+double area_in_block(const Inclusion& inclusion, const Room& room) {
+  double sum = 0;
+  for (const Inclusion& image : images(inclusion, room)) sum += area_inside(image, room.block);
+  return sum;
+}
+
+/// A free place anywhere that shows about as much of the inclusion in the block.
+std::optional<Inclusion> other_place(const std::vector<Inclusion>& inclusions, std::size_t k,
+                                     const Room& room, Random& random) {
+  const double shown = area_in_block(inclusions[k], room);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    Inclusion moved = inclusions[k];
+    moved.centre = {room.block.low[0] + random.uniform() * room.block.width(),
+                    room.block.low[1] + random.uniform() * room.block.height()};
+    if (!side_fault(moved, room).found && room_around(moved, k, inclusions, room) > room.gap &&
+        std::abs(area_in_block(moved, room) - shown) < 0.5 * area(moved))
+      return moved;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Mending mend(std::vector<Inclusion>& inclusions, std::vector<Vector2>& drawn, const Room& room,
-             const CompositeMesh& mesh, double allowed, double reach) {
+             const CompositeMesh& mesh, double allowed, double reach, Random* random) {
   Mending done;
-  for (const std::size_t k :
-       culprits(inclusions, room, mesh, allowed)) {  // from the last, as some are erased
+  for (const std::size_t k : culprits(inclusions, room, mesh, allowed)) {  // from the last: some are erased
     const bool first_time = inclusions[k].centre == drawn[k];
-    if (const auto place = first_time ? better_place(inclusions, k, drawn[k], room, reach) : std::nullopt) {
-      inclusions[k] = *place;
+    if (const auto near = first_time ? better_place(inclusions, k, drawn[k], room, reach) : std::nullopt) {
+      inclusions[k] = *near;
       ++done.moved;
+    } else if (const auto far = random ? other_place(inclusions, k, room, *random) : std::nullopt) {
+      inclusions[k] = *far;
+      drawn[k] = far->centre;
+      ++done.redrawn;
     } else {
       inclusions.erase(inclusions.begin() + static_cast<std::ptrdiff_t>(k));
       drawn.erase(drawn.begin() + static_cast<std::ptrdiff_t>(k));

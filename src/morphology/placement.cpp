@@ -4,7 +4,7 @@
 #include <numeric>
 #include <optional>
 
-#include "draw.hpp"
+#include "family.hpp"
 #include "feasibility.hpp"
 #include "gaps.hpp"
 #include "packing.hpp"
@@ -16,10 +16,18 @@ namespace slipscale {
 namespace morphology {
 namespace {
 
+/// A packing of family `k` that did not relax, and the fraction of it that did.
+struct Jam {
+  std::size_t k;
+  double reached;
+};
+
 constexpr int random_attempts = 500;     // for a free place, before placement counts as jammed
 constexpr int crowded_attempts = 20;     // for the place with the least overlap
 constexpr int sweeps = 4000;             // to relax overlaps
 constexpr int sweeps_to_thin_out = 300;  // after inclusions were taken out of a packing that did not relax
+constexpr int attempts = 3;              // at filling up again what was thinned out
+constexpr double hopeless = 0.95;        // of the fraction; below it no further attempt is made
 constexpr int rounds = 200;              // of mending fractions that relaxation changed
 
 class Placer {
@@ -78,8 +86,19 @@ class Placer {
     return *next_[k];
   }
 
-  /// Adds inclusions while that brings the family nearer to its fraction.
   void fill(std::size_t k, bool in_block) {
+    double reached = 0;
+    for (int i = 0; i < attempts; ++i) {
+      if (!add(k, in_block) || packing_.relax(sweeps, random_)) return;
+      thin_out_until_relaxed(k);
+      reached = std::max(reached, area_of_family(k) / block_area());
+      if (reached < hopeless * families_[k].fraction) break;
+    }
+    throw Jam{k, reached};
+  }
+
+  /// Adds inclusions while that brings the family nearer to its fraction. Returns whether some overlap.
+  bool add(std::size_t k, bool in_block) {
     bool jammed = false;
     double rest = missing(k);
     while (rest > 0.5 * area(next(k))) {
@@ -92,7 +111,16 @@ class Placer {
       next_[k].reset();
       rest -= area_in_block(packing_.inclusions().back(), room_);
     }
-    if (jammed && !packing_.relax(sweeps, random_)) refuse(k);
+    return jammed;
+  }
+
+  void thin_out_until_relaxed(std::size_t k) {
+    const int family = static_cast<int>(k);
+    do {
+      const auto count = std::ranges::count(packing_.inclusions(), family, &Inclusion::family);
+      if (count == 0) return;
+      for (std::ptrdiff_t i = 0; i <= count / 40; ++i) packing_.remove(packing_.most_crowded(family));
+    } while (!packing_.relax(sweeps_to_thin_out, random_));
   }
 
   /// Takes out the inclusion that brings the family nearest to its fraction.
@@ -137,25 +165,6 @@ class Placer {
                mean_area(k) / block_area(), option_of(families_, k, "diameter").c_str()));
   }
 
-  /// The packing does not relax: finds the fraction that does.
-  [[noreturn]] void refuse(std::size_t k) {
-    double reached = 0;
-    do {
-      const auto count = std::ranges::count(packing_.inclusions(), static_cast<int>(k), &Inclusion::family);
-      if (count == 0) break;
-      for (std::ptrdiff_t i = 0; i <= count / 40; ++i)
-        packing_.remove(packing_.most_crowded(static_cast<int>(k)));
-      reached = area_of_family(k) / block_area();
-    } while (!packing_.relax(sweeps_to_thin_out, random_));
-    reached = std::floor(1e3 * reached) / 1e3;
-    const bool walls = room_.edge == Edge::inside && !(room_.periodic[0] && room_.periodic[1]);
-    throw UserError(
-        format("%s %g cannot be reached with a gap of %g m, random placement came to %g; give at "
-               "most that, %s",
-               option_of(families_, k, "fraction").c_str(), families_[k].fraction, room_.gap, reached,
-               walls ? "a smaller -gap, or -edge cut" : "or a smaller -gap"));
-  }
-
   Placement result() {
     Placement placement;
     for (const Inclusion& inclusion : packing_.inclusions())
@@ -175,12 +184,40 @@ class Placer {
   int relaxed_ = 0;
 };
 
+/// A fraction not above `reached` with which placement succeeds.
+double feasible(std::vector<Family> families, const Room& room, std::uint64_t seed, const Jam& jam) {
+  double& fraction = families[jam.k].fraction;
+  fraction = std::floor(1e3 * std::min(jam.reached, 0.99 * fraction)) / 1e3;
+  while (fraction > 0.01) try {
+      Placer(families, room, seed).place();
+      return fraction;
+    } catch (const Jam&) {
+      fraction = std::floor(950 * fraction) / 1e3;
+    }
+  return 0;
+}
+
+[[noreturn]] void refuse(const std::vector<Family>& families, const Room& room, std::uint64_t seed,
+                         const Jam& jam) {
+  const double lower = feasible(families, room, seed, jam);
+  const bool walls = room.edge == Edge::inside && !(room.periodic[0] && room.periodic[1]);
+  const std::string other = walls ? "a smaller -gap, or -edge cut" : "or a smaller -gap";
+  throw UserError(
+      format("%s %g cannot be reached with a gap of %g m: random placement comes to %.3g; give that, ",
+             option_of(families, jam.k, "fraction").c_str(), families[jam.k].fraction, room.gap, lower) +
+      other);
+}
+
 }  // namespace
 }  // namespace morphology
 
 Placement place_at_random(const std::vector<Family>& families, const Room& room, std::uint64_t seed) {
   morphology::refuse_impossible(families, room);
-  return morphology::Placer(families, room, seed).place();
+  try {
+    return morphology::Placer(families, room, seed).place();
+  } catch (const morphology::Jam& jam) {
+    morphology::refuse(families, room, seed, jam);
+  }
 }
 
 }  // namespace slipscale

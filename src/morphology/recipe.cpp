@@ -128,8 +128,8 @@ void read_block(const Options& options, Room& room) {
 void read_room(const Options& options, Recipe& recipe) {
   Room& room = recipe.room;
   const MeshSize& size = recipe.mesh.size;
-  room.gap = length_or(options, "gap", 0.5 * size.interface);
-  room.clearance = 0.5 * size.interface;
+  room.gap = length_or(options, "gap", size.interface);
+  room.clearance = size.interface;
   if (!room.periodic[0] || !room.periodic[1])
     room.edge = chosen<Edge>(options.text("edge"), {{"cut", Edge::cut}, {"inside", Edge::inside}});
   if (!room.periodic[1]) room.keep_out = options.real("keep_out");

@@ -62,7 +62,7 @@ Schema placement_schema() {
       {"seed", Kind::integer, "1", "1", range::non_negative,
        "of random placement: another seed, another morphology"},
       {"gap", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
-       "smallest distance between inclusions; auto: half the edge length at interfaces"},
+       "smallest distance between inclusions; auto: the edge length at interfaces"},
       {"edge", Kind::text, "", "cut", range::one_of({"cut", "inside"}),
        "inclusions at sides that are not periodic"},
       {"keep_out", Kind::real, "m", "0", range::non_negative,

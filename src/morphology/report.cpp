@@ -66,8 +66,9 @@ std::string placement_line(const Composed& composed) {
                                                                : std::string("none"));
   if (placement.relaxed)
     text += format("; %d inclusions found room only after others had moved", placement.relaxed);
-  const int moved = placement.moved + composed.mended, dropped = placement.dropped + composed.dropped;
-  if (moved + dropped) text += format("; repaired: %d moved, %d dropped", moved, dropped);
+  const int moved = placement.moved + composed.moved, dropped = placement.dropped + composed.dropped;
+  if (moved + composed.redrawn + dropped)
+    text += format("; repaired: %d moved, %d drawn anew, %d dropped", moved, composed.redrawn, dropped);
   return text + "\n";
 }
 
@@ -121,7 +122,8 @@ std::string morphology_yaml(const std::map<std::string, std::string>& effective,
         yaml.exact("smallest_gap", composed.placement.smallest_gap, "m");
       yaml.integer("relaxed", composed.placement.relaxed,
                    "inclusions that found room only after others had moved");
-      yaml.integer("moved", composed.placement.moved + composed.mended, "repaired");
+      yaml.integer("moved", composed.placement.moved + composed.moved, "repaired");
+      yaml.integer("redrawn", composed.redrawn, "repaired");
       yaml.integer("dropped", composed.placement.dropped + composed.dropped, "repaired");
       if (recipe.composite == Composite::array)
         yaml.exact("drawn_diameter", 2 * inclusions.front().half_length, "m");

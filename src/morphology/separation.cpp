@@ -122,7 +122,7 @@ class Clearance {
     const auto between = [&](double t) { return unit((1 - t) * from + t * to); };
     double low = 0, high = 1, left = 1 - golden, right = golden;
     double at_left = along(between(left)), at_right = along(between(right));
-    while (high - low > 1e-6) {
+    while (high - low > 1e-7) {
       if (at_left < at_right) {
         low = left;
         left = right;

@@ -1,6 +1,8 @@
 #include "sides.hpp"
 
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "plane.hpp"
@@ -95,23 +97,45 @@ Vector2 mending_move(const Inclusion& inclusion, const Room& room, bool outside_
   return move_into_block(inclusion, room, slack);
 }
 
-Fault fault(const Inclusion& inclusion, const Room& room, bool outside_allowed) {
-  Fault found;
-  for (const bool out : {false, true}) {
-    Inclusion moved = inclusion;
-    for (int i = 0; i < 20; ++i) {
-      const Vector2 move = mending_move(moved, room, outside_allowed, out);
-      if (move == Vector2{}) {
-        const Vector2 way = moved.centre - inclusion.centre;
-        if (i == 0) return {};
-        if (!found.found || norm(way) < norm(found.way)) found = {true, way};
-        break;
-      }
-      moved.centre = moved.centre + move;
-    }
+bool keeps_sides(const Inclusion& inclusion, const Room& room, bool outside_allowed) {
+  return mending_move(inclusion, room, outside_allowed, false) == Vector2{};
+}
+
+/// Mends one fault after the other.
+std::optional<Vector2> mended_in_turn(const Inclusion& inclusion, const Room& room, bool outside_allowed,
+                                      bool out) {
+  Inclusion moved = inclusion;
+  for (int i = 0; i < 8; ++i) {
+    const Vector2 move = mending_move(moved, room, outside_allowed, out);
+    if (move == Vector2{}) return moved.centre - inclusion.centre;
+    moved.centre = moved.centre + move;
   }
-  found.found = true;
-  return found;
+  return std::nullopt;
+}
+
+/// Near a corner, mending one fault may make another: looks for a place all around, further and further off.
+std::optional<Vector2> mended_by_search(const Inclusion& inclusion, const Room& room, bool outside_allowed) {
+  constexpr int directions = 16, steps = 40;
+  const double farthest = inclusion.half_length + inclusion.half_width + 2 * wall_distance(room);
+  for (int i = 1; i <= steps; ++i)
+    for (int k = 0; k < directions; ++k) {
+      Inclusion moved = inclusion;
+      const Vector2 way = (farthest * i / steps) * direction(2 * std::numbers::pi * k / directions);
+      moved.centre = moved.centre + way;
+      if (keeps_sides(moved, room, outside_allowed)) return way;
+    }
+  return std::nullopt;
+}
+
+Fault fault(const Inclusion& inclusion, const Room& room, bool outside_allowed) {
+  if (keeps_sides(inclusion, room, outside_allowed)) return {};
+  std::optional<Vector2> shortest;
+  for (const bool out : {false, true}) {
+    const auto way = mended_in_turn(inclusion, room, outside_allowed, out);
+    if (way && (!shortest || norm(*way) < norm(*shortest))) shortest = way;
+  }
+  if (!shortest) shortest = mended_by_search(inclusion, room, outside_allowed);
+  return {true, shortest.value_or(Vector2{})};
 }
 
 /// Bounding box against box: cheap, and right but near a corner.

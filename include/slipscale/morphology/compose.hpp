@@ -16,7 +16,9 @@ struct Composed {
   std::vector<double> drawn_area;  ///< of each inclusion or layer in the block, m²
   CompositeMesh mesh;
   MeshQuality quality;
-  int mended = 0, dropped = 0;  ///< inclusions moved, or taken out, because of bad cells beside them
+  /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
+  /// cells.
+  int moved = 0, redrawn = 0, dropped = 0;
 };
 
 /// Draws the recipe and meshes it in `gmsh`, from where it can be written. Throws UserError for a recipe that

@@ -26,7 +26,10 @@ class GmshModel {
   void mesh_grid(const Box& block, const std::array<bool, 2>& periodic, int columns, int rows, CellShape cell,
                  const std::vector<std::string>& regions, const std::vector<int>& region);
 
-  CompositeMesh read() const;
+  CompositeMesh read();
+
+  /// Gives nodes of the mesh that was read their new places.
+  void move(const CompositeMesh& mesh, const std::vector<int>& nodes);
 
   /// MSH 4.1, with the regions as physical surfaces and bottom, right, top and left as physical curves.
   void write(const std::string& path) const;
@@ -36,6 +39,7 @@ class GmshModel {
  private:
   std::vector<std::string> regions_;
   std::vector<int> region_of_, inclusion_of_;  ///< by the tag of the surface
+  std::vector<std::size_t> node_tags_;         ///< of the nodes as read
 };
 
 }  // namespace slipscale

@@ -14,7 +14,7 @@ struct Inclusion {
   Shape shape = Shape::disc;
   Vector2 centre{};
   double half_length = 0;  ///< half of the long axis; the radius of a disc
-  double half_width = 0;   ///< half of the short axis; the radius of a disc
+  double half_width = 0;   ///< half of the short axis, <= half_length; the radius of a disc
   double corner = 0;       ///< corner radius of a rectangle, 0 < corner <= half_width
   double angle = 0;        ///< of the long axis from x, radian
   int family = 0;          ///< index into Recipe::families
@@ -48,7 +48,7 @@ struct Box {
   double height() const { return high[1] - low[1]; }
 };
 
-/// Area of the part of the inclusion that lies in the box, m²; relative error below 1e-9.
+/// Area of the part of the inclusion that lies in the box, m²; to 1e-9 of the inclusion's area.
 double area_inside(const Inclusion& inclusion, const Box& box);
 
 }  // namespace slipscale

@@ -1,4 +1,4 @@
-#include "draw.hpp"
+#include "family.hpp"
 
 #include <algorithm>
 #include <cmath>
