@@ -21,10 +21,12 @@ Vector2 centre(const CellGeometry& cell) {
 OwnedDM create_dm(MPI_Comm comm, const MeshSource& source, bool interpolate, std::string& fault) {
   // One label for each physical name; without it only the first group of an entity in several would be kept.
   petsc(PetscOptionsSetValue(nullptr, "-dm_plex_gmsh_use_regions", "true"));
+  petsc(PetscOptionsSetValue(nullptr, "-dm_plex_gmsh_periodic", source.cut ? "false" : "true"));
   OwnedDM dm;
   const PetscErrorCode code =
       DMPlexCreateGmshFromFile(comm, source.file.c_str(), interpolate ? PETSC_TRUE : PETSC_FALSE, dm.put());
   petsc(PetscOptionsClearValue(nullptr, "-dm_plex_gmsh_use_regions"));
+  petsc(PetscOptionsClearValue(nullptr, "-dm_plex_gmsh_periodic"));
   if (code)
     fault = "-mesh_file: '" + source.file + "' cannot be read as a gmsh mesh (" + take_petsc_message() +
             "); write it again with gmsh -2 -format msh41";

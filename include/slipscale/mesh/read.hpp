@@ -10,7 +10,8 @@ enum class Partitioner { metis, simple, ptscotch };
 struct MeshSource {
   std::string file;
   Partitioner partitioner = Partitioner::metis;
-  int refine = 0;  ///< uniform refinements, made before partitioning
+  int refine = 0;    ///< uniform refinements, made before partitioning
+  bool cut = false;  ///< leave the sides open that the file makes periodic
 };
 
 Schema mesh_schema();

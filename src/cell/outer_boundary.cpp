@@ -1,0 +1,90 @@
+#include "outer_boundary.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "slipscale/base/petsc.hpp"
+
+namespace slipscale {
+
+std::vector<OuterEdge> outer_edges(const Mesh& mesh) {
+  struct Seen {
+    int cells = 0;
+    OuterEdge edge;
+  };
+  std::map<std::array<int, 2>, Seen> seen;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
+    for (int i = 0; i < count; ++i) {
+      const int j = (i + 1) % count;
+      const int a = mesh.cells.corner_nodes[first + i], b = mesh.cells.corner_nodes[first + j];
+      if (a >= mesh.nodes.owned && b >= mesh.nodes.owned) continue;
+      const Vector2 &x = mesh.cells.corners[first + i], &y = mesh.cells.corners[first + j];
+      Seen& edge = seen[{std::min(a, b), std::max(a, b)}];
+      ++edge.cells;
+      edge.edge = {{a, b}, {y[1] - x[1], x[0] - y[0]}};
+    }
+  }
+  std::vector<OuterEdge> outer;
+  for (const auto& [nodes, edge] : seen)
+    if (edge.cells == 1) outer.push_back(edge.edge);
+  return outer;
+}
+
+namespace {
+
+/// Gives every corner of the cell the lowest number among them. Returns whether one changed.
+bool spread(const Mesh& mesh, int cell, PetscScalar* lowest) {
+  const int *begin = mesh.cells.corner_nodes.data() + mesh.cells.first[cell],
+            *end = mesh.cells.corner_nodes.data() + mesh.cells.first[cell + 1];
+  PetscScalar least = lowest[*begin];
+  for (const int* node = begin; node != end; ++node) least = std::min(least, lowest[*node]);
+  bool changed = false;
+  for (const int* node = begin; node != end; ++node) {
+    changed |= lowest[*node] > least;
+    lowest[*node] = least;
+  }
+  return changed;
+}
+
+bool spread_within_rank(const Mesh& mesh, PetscScalar* lowest) {
+  bool ever = false;
+  for (bool again = true; again; ever |= again) {
+    again = false;
+    for (int cell = 0; cell < mesh.cells.size(); ++cell) again |= spread(mesh, cell, lowest);
+    for (int cell = mesh.cells.size(); cell-- > 0;) again |= spread(mesh, cell, lowest);  // and back
+  }
+  return ever;
+}
+
+}  // namespace
+
+int connected_parts(MPI_Comm comm, const Mesh& mesh) {
+  // Every node takes the lowest number in its part, first within the rank, then from rank to rank.
+  OwnedVec vec;
+  Vec local = nullptr;
+  PetscScalar* lowest = nullptr;
+  petsc(VecCreateGhost(comm, mesh.nodes.owned, PETSC_DECIDE, static_cast<PetscInt>(mesh.nodes.ghosts.size()),
+                       mesh.nodes.ghosts.data(), vec.put()));
+  petsc(VecGhostGetLocalForm(vec, &local));
+  petsc(VecGetArray(local, &lowest));
+  for (int i = 0; i < mesh.nodes.size(); ++i) lowest[i] = static_cast<PetscScalar>(mesh.nodes.number[i]);
+  for (int changed = 1; changed;) {
+    changed = spread_within_rank(mesh, lowest);
+    petsc(VecRestoreArray(local, &lowest));
+    petsc(VecGhostUpdateBegin(vec, INSERT_VALUES, SCATTER_FORWARD));
+    petsc(VecGhostUpdateEnd(vec, INSERT_VALUES, SCATTER_FORWARD));
+    petsc(VecGetArray(local, &lowest));
+    MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, comm);
+  }
+  int parts = 0;
+  for (int i = 0; i < mesh.nodes.owned; ++i)
+    parts += lowest[i] == static_cast<PetscScalar>(mesh.nodes.number[i]);
+  petsc(VecRestoreArray(local, &lowest));
+  petsc(VecGhostRestoreLocalForm(vec, &local));
+  MPI_Allreduce(MPI_IN_PLACE, &parts, 1, MPI_INT, MPI_SUM, comm);
+  return parts;
+}
+
+}  // namespace slipscale
