@@ -7,6 +7,7 @@ file. A row that ranks disagree on appears once for each finding, with its ranks
 """
 
 import argparse
+import os
 import pathlib
 import re
 import subprocess
@@ -24,7 +25,9 @@ def findings(log):
             ranks[started[1]] = int(started[2])
         elif row := ROW.match(line):
             rows.setdefault(row[1], set()).add(ranks[line.split(":")[0]])
-    return [(tuple(row.split(" | ")), sorted(on)) for row, on in rows.items()]
+    found = [(tuple(row.split(" | ")), sorted(on)) for row, on in rows.items()]
+    topics = list(dict.fromkeys(row[0] for row, _ in found))  # tests run side by side: keep a case together
+    return sorted(found, key=lambda entry: topics.index(entry[0][0]))
 
 
 def markdown(rows):
@@ -42,7 +45,8 @@ def main():
     arguments.add_argument("build", nargs="?", default="build/release", type=pathlib.Path)
     arguments.add_argument("--into", type=pathlib.Path, help="file that holds the two comments")
     chosen = arguments.parse_args()
-    run = subprocess.run(["ctest", "--test-dir", chosen.build, "-L", "^verification$", "--verbose"],
+    run = subprocess.run(["ctest", "--test-dir", chosen.build, "-L", "^verification$", "--verbose",
+                          "--parallel", str(os.cpu_count())],
                          capture_output=True, text=True)
     rows = findings(run.stdout)
     if run.returncode or not rows:
