@@ -124,7 +124,7 @@ TEST_F(ExtremeSteps, FreeBodyGrowsAboveTheLimitOnly) {
   }
   EXPECT_LE(below, 1.001);  // of what is bounded, the largest speed still wanders
   report({topic, ".999, free body, all of these: growth a step", "<= 1.001", format("%.2f", below), "",
-          "stability limit, science, section 2"});
+          "exact stability limit"});
 }
 
 /// The limit that is printed is safe and sharp, and a step above it is refused with both numbers.
@@ -153,7 +153,7 @@ TEST_F(ExtremeSteps, AreRefusedAboveTheLimit) {
   }
   EXPECT_EQ(refused, 6);
   report({topic, "1.001: refused with step and limit in the sentence", "6 of 6", format("%d of 6", refused),
-          "", "science, section 8, extremes"});
+          "", "exact stability limit"});
 }
 
 /// Supports and contact hold the highest mode down, so that a step above the limit of the free body survives

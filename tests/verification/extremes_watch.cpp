@@ -89,7 +89,7 @@ void Group::report_worst() const {
           "< 1e-12; <= 1e-14; <= 1e-14; <= 1e-14; <= 2",
           "<= " + decade_above(worst_.residual) + "; " + decade_above(worst_.penetration) + "; " +
               decade_above(worst_.excess) + "; " + decade_above(worst_.against) + format("; %.1g", reached_),
-          "", "rounding; science, sections 2 to 4"});
+          "", "rounding"});
 }
 
 Watched watch(SlidingBody& body, long steps) {

@@ -97,6 +97,6 @@ TEST(NodeImpact, OfTheNodesOfABodyIsPlastic) {
             format("beta2 %.1f: impulse over m v; velocity left per step; energy lost over m v2/2", beta2),
             format("1; %.4f; 1", ratio),
             format("%.10f; %.4f; %.10f", found.impulse, std::abs(found.ratio), found.energy), "",
-            "position constraint, science section 3"});
+            "position constraint, lumped mass"});
   }
 }
