@@ -13,6 +13,7 @@ namespace slipscale {
 namespace {
 
 constexpr double tolerance = 1e-10;       ///< of the residual, relative
+constexpr double rounding = 1e-13;        ///< of the residual, over the forces that cancel in it
 constexpr PetscInt direct_below = 60000;  ///< unknowns: a factorisation is quicker than multigrid
 constexpr PetscInt most_iterations = 500;
 
@@ -146,7 +147,8 @@ Eigen::Vector3d mean_strain(const CellGeometryView& cell, const CellSystem& syst
 
 class CellSolver {
  public:
-  CellSolver(MPI_Comm comm, CellSystem& system) : system_(system) {
+  /// `force` is the size of the forces that act, N/m: a homogeneous cell leaves nothing but its rounding.
+  CellSolver(MPI_Comm comm, CellSystem& system, double force) : system_(system), force_(force) {
     const auto start = Clock::now();
     matrix_ = system.matrix();
     u_ = system.vector();
@@ -156,7 +158,7 @@ class CellSolver {
     petsc(SNESSetOptionsPrefix(snes_, "cell_"));
     petsc(SNESSetFunction(snes_, residual_, form_residual, &system));
     petsc(SNESSetJacobian(snes_, matrix_, matrix_, form_jacobian, &system));
-    petsc(SNESSetTolerances(snes_, 0, 2 * tolerance, 0, 10, PETSC_DEFAULT));
+    petsc(SNESSetTolerances(snes_, rounding * force_, 2 * tolerance, 0, 10, PETSC_DEFAULT));
     SNESLineSearch search = nullptr;
     petsc(SNESGetLineSearch(snes_, &search));
     petsc(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
@@ -215,7 +217,7 @@ class CellSolver {
     petsc(VecGetSize(u_, &unknowns));
     petsc(SNESGetKSP(snes_, &ksp));
     petsc(KSPGetPC(ksp, &pc));
-    petsc(KSPSetTolerances(ksp, tolerance, 0, PETSC_DEFAULT, most_iterations));
+    petsc(KSPSetTolerances(ksp, tolerance, rounding * force_, PETSC_DEFAULT, most_iterations));
     if (unknowns < direct_below) {
       petsc(KSPSetType(ksp, KSPPREONLY));
       petsc(PCSetType(pc, PCCHOLESKY));
@@ -243,11 +245,22 @@ class CellSolver {
   }
 
   CellSystem& system_;
+  const double force_;
   OwnedMat matrix_;
   OwnedVec u_, residual_;
   OwnedSNES snes_;
   double seconds_ = 0;
 };
+
+/// Euclidean norm of the nodal forces of single elements under a unit load, about: stress times the square
+/// root of the area, N/m.
+double force_size(const Mesh& mesh, const std::vector<Material>& materials, CellBoundary boundary) {
+  double stress = boundary == CellBoundary::subc ? 1 : 0;
+  if (boundary != CellBoundary::subc)
+    for (const Material& material : materials)
+      stress = std::max(stress, material.stiffness.diagonal().maxCoeff());
+  return stress * std::sqrt(mesh.area());
+}
 
 void add_all(MPI_Comm comm, Eigen::Matrix3d& sum) {
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 9, MPI_DOUBLE, MPI_SUM, comm);
@@ -326,7 +339,7 @@ CellSolution solve_cell(MPI_Comm comm, const Mesh& mesh, const std::vector<Mater
   refuse_unfit(comm, mesh, boundary, outer);
   CellSystem system(comm, mesh, materials);
   hold_supports(comm, mesh, boundary, outer, system);
-  CellSolver solver(comm, system);
+  CellSolver solver(comm, system, force_size(mesh, materials, boundary));
   CellSolution solution;
   solution.boundary = boundary;
   solution.set_up_seconds = solver.set_up_seconds();

@@ -10,9 +10,6 @@
 namespace slipscale {
 namespace {
 
-constexpr const char* files_of_a_run[] = {"run.yaml",   "summary.yaml", "history.h5",
-                                          "contact.h5", "fields.h5",    "fields.xdmf"};
-
 int rank_of(MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -20,7 +17,7 @@ int rank_of(MPI_Comm comm) {
 }
 
 /// What is wrong with the folder, once made ready; empty when nothing is.
-std::string prepare(const std::string& folder) {
+std::string prepare(const std::string& folder, const std::vector<std::string>& replaced) {
   const auto complain = [&](const std::string& fault) {
     return "-output_folder '" + folder + "' " + fault + "; give a folder that you may write to";
   };
@@ -28,10 +25,9 @@ std::string prepare(const std::string& folder) {
   std::filesystem::create_directories(folder, error);
   if (error) return complain("cannot be created (" + error.message() + ")");
   if (!std::filesystem::is_directory(folder)) return complain("is not a folder");
-  for (const char* file : files_of_a_run) {
+  for (const std::string& file : replaced) {
     std::filesystem::remove(std::filesystem::path(folder) / file, error);
-    if (error)
-      return complain(std::string("holds a ") + file + " that cannot be removed (" + error.message() + ")");
+    if (error) return complain("holds a " + file + " that cannot be removed (" + error.message() + ")");
   }
   const std::string probe = folder + "/.slipscale-probe";
   try {
@@ -59,8 +55,9 @@ void replace_text_file(const std::string& path, const std::string& text) {
   if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) fail();
 }
 
-OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder) : comm_(comm), path_(folder) {
-  throw_together(comm, rank_of(comm) == 0 ? prepare(folder) : "");
+OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced)
+    : comm_(comm), path_(folder) {
+  throw_together(comm, rank_of(comm) == 0 ? prepare(folder, replaced) : "");
 }
 
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {

@@ -105,7 +105,8 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       field_steps_(steps_of(choice.fields_times, time)),
       observer_(body),
       probes_(body.comm(), body.model(), choice.points),
-      folder_(body.comm(), choice.folder),
+      folder_(body.comm(), choice.folder,
+              {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf"}),
       progress_(choice.progress, 0, static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
   if (choice.fields_every || !field_steps_.empty())

@@ -61,7 +61,9 @@ TEST(OutputFolder, LosesTheFilesOfAnOlderRunAndNothingElse) {
                              "fields.xdmf", "notes.txt", "checkpoint-100.h5", "sub/run.yaml"})
       std::ofstream(path + "/" + file) << "old";
   });
-  const OutputFolder folder(PETSC_COMM_WORLD, path);
+  const OutputFolder folder(
+      PETSC_COMM_WORLD, path,
+      {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf"});
   on_first_rank([&] {
     int left = 0;
     for (const auto& entry : fs::recursive_directory_iterator(path)) left += entry.is_regular_file();

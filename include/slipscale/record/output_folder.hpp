@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace slipscale {
 
@@ -13,10 +14,10 @@ void replace_text_file(const std::string& path, const std::string& text);
 /// The folder of one run.
 class OutputFolder {
  public:
-  /// Creates it and the folders above it, and removes the files of an older run (run.yaml, summary.yaml,
-  /// history.h5, contact.h5, fields.h5, fields.xdmf) and nothing else. Throws `UserError` on all ranks when
-  /// the folder cannot be created or written to. Collective.
-  OutputFolder(MPI_Comm comm, const std::string& folder);
+  /// Creates it and the folders above it, and removes the files of an older run that this one will write,
+  /// `replaced`, and nothing else. Throws `UserError` on all ranks when the folder cannot be created or
+  /// written to. Collective.
+  OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced = {});
 
   const std::string& path() const { return path_; }
   std::string path(const std::string& file) const { return path_ + "/" + file; }
