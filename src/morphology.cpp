@@ -15,13 +15,26 @@ using namespace slipscale;
 
 namespace {
 
-void make_folder(const std::string& folder) {
+/// Sees before the work that there is a place for its result. Returns whether the folder is new.
+bool make_folder(const std::string& folder) {
   std::error_code code;
-  std::filesystem::create_directories(folder, code);
+  const bool is_new = std::filesystem::create_directories(folder, code);
   const std::string trial = folder + "/.morphology.partial";
   if (!std::ofstream(trial))
     throw UserError("-output_folder '" + folder + "' cannot be written to; name another");
   std::filesystem::remove(trial, code);
+  return is_new;
+}
+
+Composed compose_for(const std::string& folder, const Recipe& recipe, GmshModel& gmsh) {
+  const bool is_new = make_folder(folder);
+  try {
+    return compose(recipe, gmsh);
+  } catch (const UserError&) {
+    std::error_code code;
+    if (is_new) std::filesystem::remove(folder, code);
+    throw;
+  }
 }
 
 /// Under its final name a file is always whole.
@@ -34,10 +47,8 @@ void write_whole(const std::string& folder, const std::string& name, const Write
 
 void make(const Recipe& recipe, const Options& options) {
   const std::string folder = options.text("output_folder");
-  options.refuse_unread();
-  make_folder(folder);
   GmshModel gmsh;
-  const Composed composed = compose(recipe, gmsh);
+  const Composed composed = compose_for(folder, recipe, gmsh);
   write_whole(folder, "mesh.msh", [&](const std::string& path) { gmsh.write(path); });
   write_whole(folder, "morphology.png", [&](const std::string& path) { write_picture(composed.mesh, path); });
   replace_text_file(folder + "/morphology.yaml", morphology_yaml(options.effective(), recipe, composed));
@@ -48,6 +59,10 @@ void make(const Recipe& recipe, const Options& options) {
 /// Drawing is serial: on several ranks the first one works, and all report its faults.
 void morphology(Options& options) {
   const Recipe recipe = read_recipe(options);
+  (void)options.text("output_folder");
+  options.refuse_unread();
+  options.refuse_unknown();
+  for (const std::string& note : options.notes()) print(note + "\n");
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   std::string fault;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The first study from a fresh clone on Debian 12: dependencies, build, mesh, run, picture.
+# The first study from a fresh clone on Debian 12: dependencies, build, composite, run, picture.
 #   runs/first/run.sh [ranks]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -8,10 +8,9 @@ out=out/first
 
 cmake/install-dependencies.sh
 cmake --preset release
-cmake --build build/release --target slide
+cmake --build build/release --target morphology slide
 
-mkdir -p "$out"
-gmsh -v 2 -2 -format msh41 runs/first/block.geo -o runs/first/block.msh
+build/release/morphology -options_file_yaml runs/first/block.yaml -output_folder "$out/mesh"
 
 if [ "$(id -u)" = 0 ]; then # as in a container
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
@@ -28,6 +27,7 @@ PYTHONPATH=runs /usr/bin/python3 -m analysis.picture "$out" "$out/picture.png" -
 cat <<END
 
 The picture:  $out/picture.png
+The block:    $out/mesh/morphology.png and morphology.yaml
 In numbers:   $out/summary.yaml
 In ParaView:  $out/fields.xdmf
 The rest:     $out/history.h5 and contact.h5; every option in effect: $out/run.yaml

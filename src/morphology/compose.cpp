@@ -62,6 +62,7 @@ void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
                 std::max(1, static_cast<int>(std::lround(composed.block.width() / recipe.mesh.size.bulk))),
             rows =
                 std::max(1, static_cast<int>(std::lround(composed.block.height() / recipe.mesh.size.bulk)));
+  composed.grid = {columns, rows};
   gmsh.mesh_grid(composed.block, recipe.room.periodic, columns, rows, recipe.mesh.cell, {"matrix"}, {});
   composed.mesh = gmsh.read();
   composed.quality = quality(composed.mesh);
@@ -70,7 +71,16 @@ void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
 void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   const GreyPicture picture = read_grey(recipe.image.file);
   refuse_too_many(static_cast<double>(picture.columns) * picture.rows);
+  for (int axis = 0; axis < 2; ++axis)
+    if (const int across = axis == 0 ? picture.columns : picture.rows;
+        recipe.room.periodic[axis] && across < 3)
+      throw UserError(
+          format("-image_file '%s' has %d %s, and -periodic %s needs three at least; give a larger "
+                 "picture, or another -periodic",
+                 recipe.image.file.c_str(), across, axis == 0 ? "columns" : "rows",
+                 recipe.room.periodic[1] ? "xy" : "x"));
   composed.block.high = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
+  composed.grid = {picture.columns, picture.rows};
   const std::vector<int> region = regions_of(picture, recipe.image);
   for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)
     if (std::ranges::count(region, static_cast<int>(k)) == 0)

@@ -120,6 +120,28 @@ void set_sizes(const SizeField& field, const MeshSize& size) {
     });
 }
 
+/// Triangles that the size field asks for, by samples.
+double expected_triangles(const SizeField& field, const Box& block) {
+  constexpr int samples = 100;
+  double sum = 0;
+  for (int j = 0; j < samples; ++j)
+    for (int i = 0; i < samples; ++i) {
+      const double length = field({block.low[0] + (i + 0.5) / samples * block.width(),
+                                   block.low[1] + (j + 0.5) / samples * block.height()});
+      sum += 4 / std::sqrt(3) / (length * length);
+    }
+  return sum * block.width() * block.height() / (samples * samples);
+}
+
+/// gmsh's best pairing of triangles (blossom) leaves 7 % of the cells unpaired, at a cost that is quadratic
+/// in their number: half a minute for 150 000, more than six for 600 000. The greedy one leaves 23 %.
+void recombine(std::size_t faces, double triangles) {
+  constexpr double most_for_blossom = 2e5;
+  set("Mesh.RecombinationAlgorithm", triangles > most_for_blossom ? 0 : 1);
+  for (std::size_t face = 1; face <= faces; ++face)
+    gmsh::model::mesh::setRecombine(2, static_cast<int>(face));
+}
+
 /// Node tags of gmsh, densely numbered in their order.
 struct NodeTable {
   std::vector<Vector2> x;
@@ -174,7 +196,6 @@ GmshModel::GmshModel() {
     set("General.Terminal", 0);
     set("General.NumThreads", 1);
     set("Mesh.Algorithm", 6);  // frontal Delaunay: the best triangles
-    set("Mesh.RecombinationAlgorithm", 1);
     set("Mesh.MshFileVersion", 4.1);
     set("Mesh.SaveAll", 0);
   });
@@ -209,8 +230,7 @@ void GmshModel::mesh(const Drawing& drawing, const std::vector<std::string>& reg
     make_periodic(drawing, room.block, room.periodic);
     divide_interfaces(drawing, choice.size.interface);
     if (choice.cell == CellShape::quadrilateral)
-      for (std::size_t tag = 1; tag < region_of_.size(); ++tag)
-        gmsh::model::mesh::setRecombine(2, static_cast<int>(tag));
+      recombine(drawing.faces.size(), expected_triangles(field, room.block));
     set_sizes(field, choice.size);
     gmsh::model::mesh::generate(2);
     gmsh::model::mesh::removeSizeCallback();

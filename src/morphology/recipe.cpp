@@ -1,7 +1,6 @@
 #include "slipscale/morphology/recipe.hpp"
 
-#include <petscsys.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "recipe_checks.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 
@@ -29,26 +29,6 @@ double length_or(const Options& options, const std::string& name, double otherwi
   return text == "auto" ? otherwise : std::strtod(text.c_str(), nullptr);
 }
 
-/// The names in -families_<name>_<key>, as typed.
-std::set<std::string> family_names() {
-  char* all = nullptr;
-  petsc(PetscOptionsGetAll(nullptr, &all));
-  std::istringstream words(all);
-  petsc(PetscFree(all));
-  const std::string prefix = "-families_";
-  std::set<std::string> names;
-  for (std::string word; words >> word;) {
-    if (word.rfind(prefix, 0) != 0) continue;
-    std::size_t longest = 0;
-    for (const char* key : {"_shape", "_fraction", "_diameter", "_diameter_deviation",
-                            "_diameter_distribution", "_aspect", "_rounding", "_angle", "_angle_deviation"})
-      if (word.ends_with(key)) longest = std::max(longest, std::string(key).size());
-    if (longest > 0 && word.size() > prefix.size() + longest)
-      names.insert(word.substr(prefix.size(), word.size() - prefix.size() - longest));
-  }
-  return names;
-}
-
 /// Reads one kind of inclusion from the options that begin with `prefix`. An array has one size and one
 /// angle, and takes either the fraction or the diameter.
 Family read_family(const Options& options, const std::string& prefix, const std::string& region,
@@ -58,11 +38,13 @@ Family read_family(const Options& options, const std::string& prefix, const std:
   family.shape =
       chosen<Shape>(options.text(prefix + "shape"),
                     {{"disc", Shape::disc}, {"ellipse", Shape::ellipse}, {"rectangle", Shape::rectangle}});
+  morphology::refuse_idle_inclusion(options, prefix, family.shape, in_array);
   if (!in_array || options.given(prefix + "fraction")) family.fraction = options.real(prefix + "fraction");
   if (!in_array || !options.given(prefix + "fraction")) family.diameter = options.real(prefix + "diameter");
   if (family.shape != Shape::disc) {
     family.aspect = options.real(prefix + "aspect");
-    family.angle = options.real(prefix + "angle") * degree;
+    if (in_array || options.text(prefix + "angle_deviation") != "any")
+      family.angle = options.real(prefix + "angle") * degree;
   }
   if (family.shape == Shape::rectangle) family.rounding = options.real(prefix + "rounding");
   if (in_array) return family;
@@ -79,22 +61,14 @@ Family read_family(const Options& options, const std::string& prefix, const std:
   return family;
 }
 
-void read_families(Options& options, Recipe& recipe) {
-  const std::set<std::string> names = family_names();
-  options.know_names("family", {names.begin(), names.end()});
+void read_families(const Options& options, const std::set<std::string>& names, Recipe& recipe) {
   const bool in_array = recipe.composite == Composite::array;
-  if (names.empty()) {
-    recipe.families = {read_family(options, "", "inclusion", in_array)};
-    return;
-  }
-  if (in_array)
+  if (names.empty()) recipe.families = {read_family(options, "", "inclusion", in_array)};
+  if (in_array && !names.empty())
     throw UserError("-arrangement " + options.text("arrangement") + " places one kind of inclusion, but " +
                     "families are given; remove them, or place them with -arrangement random");
-  for (const std::string& name : names) {
-    if (name == "matrix")
-      throw UserError("the family 'matrix' has the name of the region around it; choose another name");
+  for (const std::string& name : names)
     recipe.families.push_back(read_family(options, "families_" + name + "_", name, false));
-  }
 }
 
 MeshSize read_size(const Options& options, bool has_interface) {
@@ -102,7 +76,12 @@ MeshSize read_size(const Options& options, bool has_interface) {
   size.bulk = options.real("size");
   size.interface = has_interface ? length_or(options, "size_interface", size.bulk) : size.bulk;
   size.surface = length_or(options, "size_surface", size.bulk);
-  if (size.interface < size.bulk || size.surface < size.bulk) size.growth = options.real("size_growth");
+  if (size.interface < size.bulk || size.surface < size.bulk)
+    size.growth = options.real("size_growth");
+  else
+    options.refuse_idle({"size_growth"}, {"with edges of one length",
+                                          "give a smaller -size_interface or -size_surface",
+                                          {"size_interface", "size_surface"}});
   return size;
 }
 
@@ -119,17 +98,24 @@ void read_mesh_choice(const Options& options, Recipe& recipe) {
   if (!mesh.structured) mesh.worst_angle = options.real("worst_angle") * degree;
 }
 
-void read_block(const Options& options, Room& room) {
-  room.block.high = {options.real("block_width"), options.real("block_height")};
-  const std::string periodic = options.text("periodic");
-  room.periodic = {periodic != "none", periodic == "xy"};
+/// Where a side cuts a disc by less than this part of its radius, the two meet at less than 20 degrees, and
+/// no mesh has a better angle there.
+constexpr double shallow = 0.06;
+
+/// In an array, half of the gap to the next inclusion lies before a side.
+double usual_clearance(const Recipe& recipe) {
+  const double length = recipe.mesh.size.interface;
+  if (recipe.composite == Composite::array) return 0.5 * length;
+  double widest = 0;
+  for (const Family& family : recipe.families) widest = std::max(widest, family.diameter / family.aspect);
+  return std::max(length, 0.5 * shallow * widest);
 }
 
 void read_room(const Options& options, Recipe& recipe) {
   Room& room = recipe.room;
   const MeshSize& size = recipe.mesh.size;
   room.gap = length_or(options, "gap", size.interface);
-  room.clearance = size.interface;
+  room.clearance = length_or(options, "clearance", usual_clearance(recipe));
   if (!room.periodic[0] || !room.periodic[1])
     room.edge = chosen<Edge>(options.text("edge"), {{"cut", Edge::cut}, {"inside", Edge::inside}});
   if (!room.periodic[1]) room.keep_out = options.real("keep_out");
@@ -153,47 +139,53 @@ void read_image(const Options& options, Recipe& recipe) {
     throw UserError(
         format("-image_regions names %zu regions, but %zu grey levels part %zu; give one name for each",
                image.regions.size(), image.levels.size(), image.levels.size() + 1));
-  const std::string periodic = options.text("periodic");
-  recipe.room.periodic = {periodic != "none", periodic == "xy"};
+  std::set<std::string> taken;
+  for (const std::string& name : image.regions)
+    morphology::refuse_region_name(name, "the region of -image_regions", taken);
+}
+
+Composite composite_of(const Options& options, bool has_families, Arrangement& arrangement) {
+  const std::string shape = has_families ? "families" : options.text("shape");
+  if (shape == "none") return Composite::homogeneous;
+  if (shape == "laminate") return Composite::laminate;
+  if (shape == "image") return Composite::image;
+  arrangement = chosen<Arrangement>(options.text("arrangement"), {{"random", Arrangement::random},
+                                                                  {"square", Arrangement::square},
+                                                                  {"hexagonal", Arrangement::hexagonal}});
+  return arrangement == Arrangement::random ? Composite::random : Composite::array;
+}
+
+void read_inclusions(const Options& options, const std::set<std::string>& families, Recipe& recipe) {
+  if (recipe.composite == Composite::array) {
+    recipe.array.columns = static_cast<int>(options.integer("columns"));
+    recipe.array.rows = static_cast<int>(options.integer("rows"));
+  } else {
+    recipe.seed = static_cast<std::uint64_t>(options.integer("seed"));
+  }
+  read_families(options, families, recipe);
+  read_room(options, recipe);
+  recipe.array.repair = recipe.repair;
 }
 
 }  // namespace
 
 Recipe read_recipe(Options& options) {
   Recipe recipe;
-  const std::string shape =
-      options.given("shape") || family_names().empty() ? options.text("shape") : std::string("families");
-  if (shape == "none")
-    recipe.composite = Composite::homogeneous;
-  else if (shape == "laminate")
-    recipe.composite = Composite::laminate;
-  else if (shape == "image")
-    recipe.composite = Composite::image;
-  else {
-    recipe.array.arrangement =
-        chosen<Arrangement>(options.text("arrangement"), {{"random", Arrangement::random},
-                                                          {"square", Arrangement::square},
-                                                          {"hexagonal", Arrangement::hexagonal}});
-    recipe.composite = recipe.array.arrangement == Arrangement::random ? Composite::random : Composite::array;
-  }
+  const std::set<std::string> families = morphology::read_family_names(options);
+  recipe.composite = composite_of(options, !families.empty(), recipe.array.arrangement);
+  morphology::refuse_idle_with(options, recipe.composite, families);
+  const std::string periodic = options.text("periodic");
+  recipe.room.periodic = {periodic != "none", periodic == "xy"};
   if (recipe.composite == Composite::image) {
     read_image(options, recipe);
     return recipe;
   }
-  read_block(options, recipe.room);
+  recipe.room.block.high = {options.real("block_width"), options.real("block_height")};
   read_mesh_choice(options, recipe);
   if (recipe.composite == Composite::laminate) read_laminate(options, recipe);
-  if (recipe.composite == Composite::random || recipe.composite == Composite::array) {
-    read_room(options, recipe);
-    read_families(options, recipe);
-  }
-  if (recipe.composite == Composite::random)
-    recipe.seed = static_cast<std::uint64_t>(options.integer("seed"));
-  if (recipe.composite == Composite::array) {
-    recipe.array.columns = static_cast<int>(options.integer("columns"));
-    recipe.array.rows = static_cast<int>(options.integer("rows"));
-    recipe.array.repair = recipe.repair;
-  }
+  if (recipe.composite == Composite::random || recipe.composite == Composite::array)
+    read_inclusions(options, families, recipe);
+  morphology::refuse_coarse(options, recipe);
   return recipe;
 }
 

@@ -63,14 +63,19 @@ Schema placement_schema() {
        "of random placement: another seed, another morphology"},
       {"gap", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
        "smallest distance between inclusions; auto: the edge length at interfaces"},
+      {"clearance", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
+       "an outline that comes nearer to a side or corner of the block is cut by it at least as deep; auto: "
+       "the "
+       "edge length at interfaces, or .06 of half the short axis when that is more; half the edge length in "
+       "an "
+       "array"},
       {"edge", Kind::text, "", "cut", range::one_of({"cut", "inside"}),
        "inclusions at sides that are not periodic"},
       {"keep_out", Kind::real, "m", "0", range::non_negative,
        "thickness of a layer of matrix at the bottom, the contact surface"},
       {"repair", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
        "an inclusion is moved by less than this, or else dropped, to mend a bad cell; auto: the edge length "
-       "at "
-       "interfaces"},
+       "at interfaces"},
       {"layer_period", Kind::real, "m", required, range::positive,
        "thickness of one layer of matrix and one of inclusion, for the shape laminate"},
       {"image_file", Kind::text, "", required, {}, "PNG or PGM whose pixels become quadrilaterals"},
@@ -96,7 +101,8 @@ Schema mesh_choice_schema() {
       {"size_growth", Kind::real, "1", "0.2", range::positive,
        "growth of the edge length per metre of distance from interface or surface"},
       {"cell", Kind::text, "", "triangle", range::one_of({"triangle", "quadrilateral"}),
-       "quadrilaterals come from pairs of triangles, a few of which stay"},
+       "quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells where the "
+       "triangles are more than 200 000)"},
       {"structured", Kind::flag, "", "false", {}, "rows and columns of equal cells; for the shape none"},
       {"worst_angle", Kind::real, "degree", "15", below_45,
        "cells with a smaller angle (or one as near to 180) are mended, or the mesh is refused"},

@@ -89,6 +89,10 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
                      engineering(composed.block.height(), "m") +
                      format(", %zu nodes, %ld triangles, %ld quadrilaterals\n", mesh.nodes.size(),
                             triangles(mesh), static_cast<long>(mesh.cells.size()) - triangles(mesh));
+  if (composed.grid[0] > 0)
+    text += format("%d columns and %d rows of cells, ", composed.grid[0], composed.grid[1]) +
+            engineering(composed.block.width() / composed.grid[0], "m") + " x " +
+            engineering(composed.block.height() / composed.grid[1], "m") + "\n";
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
   if (!composed.drawn_area.empty())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "slipscale/morphology/composite_mesh.hpp"
@@ -16,6 +17,7 @@ struct Composed {
   std::vector<double> drawn_area;  ///< of each inclusion or layer in the block, m²
   CompositeMesh mesh;
   MeshQuality quality;
+  std::array<int, 2> grid{};  ///< columns and rows of equal cells; zero in other meshes
   /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
   /// cells.
   int moved = 0, redrawn = 0, dropped = 0;

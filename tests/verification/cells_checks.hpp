@@ -1,0 +1,69 @@
+#pragma once
+
+#include <petscsys.h>
+
+#include <string>
+#include <vector>
+
+#include "scenes.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/cell/cell_problem.hpp"
+
+namespace slipscale::testing_support {
+
+inline double largest(const Eigen::Matrix3d& m) { return m.cwiseAbs().maxCoeff(); }
+
+/// Largest difference of two stiffnesses over the largest component of the second.
+inline double relative_difference(const Eigen::Matrix3d& found, const Eigen::Matrix3d& expected) {
+  return largest(found - expected) / largest(expected);
+}
+
+/// An error for the table: rounding errors differ from rank count to rank count, so only their bound is
+/// shown.
+inline std::string shown_error(double error, double rounding) {
+  return error < rounding ? format("< %.0e", rounding) : format("%.1e", error);
+}
+
+/// PETSc options that hold while the object lives.
+class PetscChoice {
+ public:
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  explicit PetscChoice(Values values) : values_(std::move(values)) {
+    for (const auto& [name, value] : values_)
+      petsc(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()));
+  }
+  ~PetscChoice() {
+    for (const auto& [name, value] : values_) (void)PetscOptionsClearValue(nullptr, name.c_str());
+  }
+  PetscChoice(const PetscChoice&) = delete;
+  PetscChoice& operator=(const PetscChoice&) = delete;
+
+ private:
+  Values values_;
+};
+
+/// Conjugate gradients with multigrid, for a cell of any size. The threshold drops weak couplings from the
+/// graph that is coarsened: without it stiff inclusions and soft matrix share aggregates, and 220 iterations
+/// are needed at a contrast of 1e4 where 50 do.
+inline PetscChoice multigrid() {
+  return PetscChoice({{"-cell_ksp_type", "cg"},
+                      {"-cell_ksp_norm_type", "unpreconditioned"},
+                      {"-cell_pc_type", "gamg"},
+                      {"-cell_pc_gamg_threshold", "0.05"}});
+}
+
+/// Stiffness of each region of the mesh, by its name: `matrix`, or anything else.
+inline std::vector<Material> two_materials(const Mesh& mesh, const Material& matrix,
+                                           const Material& inclusion) {
+  std::vector<Material> materials;
+  for (const Region& region : mesh.regions) materials.push_back(region.name == "matrix" ? matrix : inclusion);
+  return materials;
+}
+
+/// `solve_cell` on PETSC_COMM_WORLD.
+inline CellSolution solve(const Mesh& mesh, const std::vector<Material>& materials,
+                          CellBoundary boundary = CellBoundary::periodic) {
+  return solve_cell(PETSC_COMM_WORLD, mesh, materials, boundary);
+}
+
+}  // namespace slipscale::testing_support
