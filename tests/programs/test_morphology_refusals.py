@@ -85,7 +85,7 @@ MISTAKES = {
     "two cells across a period, free mesh": Mistake(
         ["-size 0.0014", "fewer than three cells across the periodic height"],
         {**GRID, "structured": None, "periodic": "xy", "size": 1.4e-3,
-        "block_width": 6e-3}, cure="size"),
+         "block_width": 6e-3}, cure="size"),
     "more cells than a file holds": Mistake(["-size asks for about", "give a larger one"], {"size": 1e-7}),
     "laminate off its period": Mistake(["hold", "3.5 periods along y", "-layer_period"],
                                        {**LAYERS, "periodic": "xy", "layer_period": 4e-3 / 3.5}, cure="layer_period"),
