@@ -42,14 +42,14 @@ class PetscChoice {
   Values values_;
 };
 
-/// Conjugate gradients with multigrid, for a cell of any size. The threshold drops weak couplings from the
-/// graph that is coarsened: without it stiff inclusions and soft matrix share aggregates, and 220 iterations
-/// are needed at a contrast of 1e4 where 50 do.
-inline PetscChoice multigrid() {
-  return PetscChoice({{"-cell_ksp_type", "cg"},
-                      {"-cell_ksp_norm_type", "unpreconditioned"},
-                      {"-cell_pc_type", "gamg"},
-                      {"-cell_pc_gamg_threshold", "0.05"}});
+/// Conjugate gradients with multigrid, for a cell of any size.
+inline PetscChoice multigrid() { return PetscChoice({{"-cell_ksp_type", "cg"}, {"-cell_pc_type", "gamg"}}); }
+
+/// A factorisation, for a cell of any size.
+inline PetscChoice factorisation() {
+  return PetscChoice({{"-cell_ksp_type", "preonly"},
+                      {"-cell_pc_type", "cholesky"},
+                      {"-cell_pc_factor_mat_solver_type", "mumps"}});
 }
 
 /// Stiffness of each region of the mesh, by its name: `matrix`, or anything else.

@@ -45,8 +45,13 @@ CellSolution solve_by_multigrid(const Mesh& mesh, const Contrast& contrast) {
   return solve(mesh, contrast);
 }
 
+CellSolution solve_directly(const Mesh& mesh, const Contrast& contrast) {
+  const PetscChoice chosen = factorisation();
+  return solve(mesh, contrast);
+}
+
 void Series::add(const Mesh& mesh, const Contrast& contrast, PetscInt allowed) {
-  const CellSolution found = solve_by_multigrid(mesh, contrast), exact = solve(mesh, contrast);
+  const CellSolution found = solve_by_multigrid(mesh, contrast), exact = solve_directly(mesh, contrast);
   EXPECT_EQ(found.solver, "cg + gamg");
   EXPECT_EQ(exact.solver, "preonly + cholesky");
   const PetscInt most = most_iterations(found);
@@ -66,7 +71,7 @@ TEST(CellSolver, ConvergesAtAnyContrast) {
   const Mesh mesh = drawn_mesh(random_discs(0.3, 0.2, 130, CellShape::triangle));
   ASSERT_NEAR(2 * mesh.nodes.total, 40000, 2000);
   const PetscInt least = most_iterations(solve_by_multigrid(mesh, {2, 0.3}));
-  EXPECT_LE(least, 40);
+  EXPECT_LE(least, 40);  // twice those of an independent solver of this kind on a million unknowns
   double difference = 0;
   for (const double poisson : {0.3, 0.49}) {
     Series series;
