@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "mend.hpp"
+#include "sides.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/morphology/drawing.hpp"
@@ -104,12 +105,6 @@ void compose_laminate(const Recipe& recipe, GmshModel& gmsh, Composed& composed)
   }
 }
 
-double area_in_block(const Inclusion& inclusion, const Room& room) {
-  double sum = 0;
-  for (const Inclusion& image : images(inclusion, room)) sum += area_inside(image, room.block);
-  return sum;
-}
-
 void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   Placement& placement = composed.placement;
   placement = recipe.composite == Composite::random
@@ -133,7 +128,7 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
   std::ranges::fill(placement.fraction, 0.0);
   for (std::size_t k = 0; k < placement.inclusions.size(); ++k) {
     const Inclusion& inclusion = placement.inclusions[k];
-    composed.drawn_area[k] = area_in_block(inclusion, recipe.room);
+    composed.drawn_area[k] = morphology::area_in_block(inclusion, recipe.room);
     placement.fraction[inclusion.family] +=
         composed.drawn_area[k] / (composed.block.width() * composed.block.height());
   }

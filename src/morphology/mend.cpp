@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cells.hpp"
+#include "sides.hpp"
 #include "slipscale/morphology/quality.hpp"
 
 namespace slipscale {
@@ -79,22 +80,16 @@ std::optional<Inclusion> better_place(const std::vector<Inclusion>& inclusions, 
   return best;
 }
 
-double area_in_block(const Inclusion& inclusion, const Room& room) {
-  double sum = 0;
-  for (const Inclusion& image : images(inclusion, room)) sum += area_inside(image, room.block);
-  return sum;
-}
-
 /// A free place anywhere that shows about as much of the inclusion in the block.
 std::optional<Inclusion> other_place(const std::vector<Inclusion>& inclusions, std::size_t k,
                                      const Room& room, Random& random) {
-  const double shown = area_in_block(inclusions[k], room);
+  const double shown = morphology::area_in_block(inclusions[k], room);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Inclusion moved = inclusions[k];
     moved.centre = {room.block.low[0] + random.uniform() * room.block.width(),
                     room.block.low[1] + random.uniform() * room.block.height()};
     if (!side_fault(moved, room).found && room_around(moved, k, inclusions, room) > room.gap &&
-        std::abs(area_in_block(moved, room) - shown) < 0.5 * area(moved))
+        std::abs(morphology::area_in_block(moved, room) - shown) < 0.5 * area(moved))
       return moved;
   }
   return std::nullopt;

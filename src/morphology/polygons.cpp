@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 
+#include "sides.hpp"
 #include "slipscale/morphology/drawing.hpp"
 
 namespace slipscale {
@@ -193,12 +194,6 @@ double correction(const CutInclusion& cut, double wanted, double scale) {
   return at;
 }
 
-double area_in_body(const Inclusion& inclusion, const Room& room) {
-  double sum = 0;
-  for (const Inclusion& image : images(inclusion, room)) sum += area_inside(image, room.block);
-  return sum;
-}
-
 }  // namespace
 
 double polygon_area(const std::vector<Vector2>& corners) {
@@ -218,7 +213,7 @@ std::vector<Piece> polygons(const std::vector<Inclusion>& inclusions, const Room
   for (std::size_t k = 0; k < inclusions.size(); ++k) {
     const Inclusion& inclusion = inclusions[k];
     const CutInclusion cut = cut_at_sides(inclusion, room, length);
-    const double distance = correction(cut, area_in_body(inclusion, room), inclusion.half_width);
+    const double distance = correction(cut, morphology::area_in_block(inclusion, room), inclusion.half_width);
     for (const auto& [tile, corners] : cut.pieces) {
       Piece piece{{}, static_cast<int>(k), inclusion.family + 1};
       for (const Corner& corner : corners)
