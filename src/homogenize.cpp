@@ -6,8 +6,8 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
-#include "slipscale/cell/homogenised.hpp"
-#include "slipscale/cell/localization_file.hpp"
+#include "slipscale/record/homogenised.hpp"
+#include "slipscale/record/localization_file.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/output_folder.hpp"
 

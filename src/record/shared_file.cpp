@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "../record/disk_space.hpp"
+#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 
 namespace slipscale {

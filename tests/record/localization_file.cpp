@@ -1,4 +1,4 @@
-#include "slipscale/cell/localization_file.hpp"
+#include "slipscale/record/localization_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <regex>
 #include <sstream>
 
-#include "../record/analytic_fields.hpp"
-#include "../record/read_back.hpp"
+#include "analytic_fields.hpp"
+#include "read_back.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/output_folder.hpp"
 

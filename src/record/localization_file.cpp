@@ -1,4 +1,4 @@
-#include "slipscale/cell/localization_file.hpp"
+#include "slipscale/record/localization_file.hpp"
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 #include "slipscale/base/print.hpp"
-#include "slipscale/cell/homogenised.hpp"
+#include "slipscale/record/homogenised.hpp"
 #include "slipscale/record/yaml.hpp"
 #include "slipscale/version.hpp"
 

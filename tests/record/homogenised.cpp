@@ -1,4 +1,4 @@
-#include "slipscale/cell/homogenised.hpp"
+#include "slipscale/record/homogenised.hpp"
 
 #include <gtest/gtest.h>
 
