@@ -35,7 +35,7 @@ std::vector<char> owned_points(DM dm) {
 class Extraction {
  public:
   Extraction(MPI_Comm comm, DM dm, const std::vector<PetscInt>& number, Mesh& mesh)
-      : comm_(comm), dm_(dm), number_(number), owned_(owned_points(dm)), mesh_(mesh) {
+      : comm_(comm), dm_(dm), geometry_(dm), number_(number), owned_(owned_points(dm)), mesh_(mesh) {
     petsc(DMPlexGetHeightStratum(dm, 0, &cell_begin_, &cell_end_));
     petsc(DMPlexGetDepthStratum(dm, 1, &edge_begin_, &edge_end_));
     petsc(DMPlexGetDepthStratum(dm, 0, &node_begin_, &node_end_));
@@ -60,7 +60,7 @@ class Extraction {
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       local_[vertices[k] - node_begin_] = static_cast<int>(k);
       mesh_.nodes.number.push_back(number_[vertices[k]]);
-      mesh_.nodes.position.push_back(vertex_position(dm_, vertices[k]));
+      mesh_.nodes.position.push_back(geometry_.position(vertices[k]));
       if (owned_[vertices[k]]) ++mesh_.nodes.owned;
     }
   }
@@ -94,12 +94,12 @@ class Extraction {
     Cells& cells = mesh_.cells;
     cells.first.push_back(0);
     for (PetscInt cell : order) {
-      const auto geometry = cell_geometry(dm_, cell);
-      const std::size_t n = geometry.vertices.size();
+      const CellGeometry geometry = geometry_.cell(cell);
+      const auto points = geometry.points();
+      const std::size_t n = points.size();
       const auto by_number = [&](PetscInt a, PetscInt b) { return number_[a] < number_[b]; };
-      const auto lowest = static_cast<std::size_t>(
-          std::min_element(geometry.vertices.begin(), geometry.vertices.end(), by_number) -
-          geometry.vertices.begin());
+      const auto lowest =
+          static_cast<std::size_t>(std::ranges::min_element(points, by_number) - points.begin());
       for (std::size_t k = 0; k < n; ++k) {
         cells.corner_nodes.push_back(local_[geometry.vertices[(lowest + k) % n] - node_begin_]);
         cells.corners.push_back(geometry.corners[(lowest + k) % n]);
@@ -114,25 +114,13 @@ class Extraction {
   std::vector<int> regions() const {
     std::vector<int> region(static_cast<std::size_t>(cell_end_ - cell_begin_), -1);
     for (std::size_t r = 0; r < mesh_.regions.size(); ++r)
-      for (PetscInt cell : labelled(mesh_.regions[r].name, mesh_.regions[r].tag, cell_begin_, cell_end_))
+      for (PetscInt cell : labelled(dm_, mesh_.regions[r].name, mesh_.regions[r].tag, cell_begin_, cell_end_))
         region[cell - cell_begin_] = static_cast<int>(r);
     return region;
   }
 
-  std::vector<PetscInt> labelled(const std::string& name, int tag, PetscInt begin, PetscInt end) const {
-    DMLabel label = nullptr;
-    petsc(DMGetLabel(dm_, name.c_str(), &label));
-    std::vector<PetscInt> points;
-    for (PetscInt point = begin; label && point < end; ++point) {
-      PetscInt value = 0;
-      petsc(DMLabelGetValue(label, point, &value));
-      if (value == tag) points.push_back(point);
-    }
-    return points;
-  }
-
   void edges(Boundary& boundary) {
-    for (PetscInt edge : labelled(boundary.name, boundary.tag, edge_begin_, edge_end_)) {
+    for (PetscInt edge : labelled(dm_, boundary.name, boundary.tag, edge_begin_, edge_end_)) {
       const PetscInt *ends = nullptr, *support = nullptr;
       petsc(DMPlexGetCone(dm_, edge, &ends));
       petsc(DMPlexGetSupport(dm_, edge, &support));
@@ -152,7 +140,7 @@ class Extraction {
   }
 
   BoundaryEdge local_edge(PetscInt cell, PetscInt edge) const {
-    const CellSide side = side_of(dm_, cell, edge);
+    const CellSide side = geometry_.side(cell, edge);
     const bool ascending = number_[side.vertices[0]] < number_[side.vertices[1]];
     BoundaryEdge result;
     for (int end = 0; end < 2; ++end) {
@@ -191,6 +179,7 @@ class Extraction {
 
   MPI_Comm comm_;
   DM dm_;
+  const PlexGeometry geometry_;
   const std::vector<PetscInt>& number_;
   std::vector<char> owned_;
   Mesh& mesh_;

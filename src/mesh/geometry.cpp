@@ -13,69 +13,82 @@ double cross(const Vector2& o, const Vector2& a, const Vector2& b) {
 
 double CellGeometry::area() const {
   double twice = 0;
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) twice += cross(corners[0], corners[k], corners[k + 1]);
+  for (std::size_t k = 1; k + 1 < size; ++k) twice += cross(corners[0], corners[k], corners[k + 1]);
   return 0.5 * twice;
 }
 
 double CellGeometry::smallest_corner() const {
-  const std::size_t n = corners.size();
-  double smallest = cross(corners[0], corners[1], corners[n - 1]);
-  for (std::size_t k = 1; k < n; ++k)
-    smallest = std::min(smallest, cross(corners[k], corners[(k + 1) % n], corners[k - 1]));
+  double smallest = cross(corners[0], corners[1], corners[size - 1]);
+  for (std::size_t k = 1; k < size; ++k)
+    smallest = std::min(smallest, cross(corners[k], corners[(k + 1) % size], corners[k - 1]));
   return smallest;
 }
 
-std::vector<PetscInt> cell_vertices(DM dm, PetscInt cell) {
-  PetscInt sides = 0;
-  const PetscInt *edges = nullptr, *orientations = nullptr;
-  petsc(DMPlexGetConeSize(dm, cell, &sides));
-  petsc(DMPlexGetCone(dm, cell, &edges));
-  petsc(DMPlexGetConeOrientation(dm, cell, &orientations));
-  std::vector<PetscInt> vertices(static_cast<std::size_t>(sides));
-  for (PetscInt k = 0; k < sides; ++k) {
-    const PetscInt* ends = nullptr;
-    petsc(DMPlexGetCone(dm, edges[k], &ends));
-    vertices[k] = ends[orientations[k] < 0 ? 1 : 0];
-  }
-  return vertices;
+PlexGeometry::PlexGeometry(DM dm) : dm_(dm) {
+  find_vertices();
+  petsc(DMGetCoordinatesLocal(dm, &by_vertex_));
+  petsc(DMGetCoordinateSection(dm, &at_vertices_));
+  petsc(VecGetArrayRead(by_vertex_, &vertex_values_));
+  petsc(DMGetCellCoordinatesLocalNoncollective(dm, &by_cell_));
+  if (!by_cell_) return;
+  petsc(DMGetCellCoordinateSection(dm, &in_cells_));
+  petsc(PetscSectionGetChart(in_cells_, &first_cell_, &last_cell_));
+  petsc(VecGetArrayRead(by_cell_, &cell_values_));
 }
 
-CellGeometry cell_geometry(DM dm, PetscInt cell) {
-  CellGeometry geometry{cell_vertices(dm, cell), {}};
-  Vec by_cell = nullptr;
-  petsc(DMGetCellCoordinatesLocalNoncollective(dm, &by_cell));
-  if (!by_cell) {
-    for (PetscInt vertex : geometry.vertices) geometry.corners.push_back(vertex_position(dm, vertex));
-    return geometry;
+PlexGeometry::~PlexGeometry() {
+  (void)VecRestoreArrayRead(by_vertex_, &vertex_values_);
+  if (by_cell_) (void)VecRestoreArrayRead(by_cell_, &cell_values_);
+}
+
+void PlexGeometry::find_vertices() {
+  PetscSection cones = nullptr;
+  PetscInt *points = nullptr, *orientations = nullptr;
+  petsc(DMPlexGetConeSection(dm_, &cones));
+  petsc(DMPlexGetCones(dm_, &points));
+  petsc(DMPlexGetConeOrientations(dm_, &orientations));
+  petsc(DMPlexGetHeightStratum(dm_, 0, &begin_, &end_));
+  vertices_.assign(static_cast<std::size_t>(end_ - begin_), {-1, -1, -1, -1});
+  for (PetscInt cell = begin_; cell < end_; ++cell) {
+    PetscInt sides = 0, first = 0;
+    petsc(PetscSectionGetDof(cones, cell, &sides));
+    petsc(PetscSectionGetOffset(cones, cell, &first));
+    for (PetscInt k = 0; k < std::min<PetscInt>(sides, 4); ++k) {
+      PetscInt ends = 0;
+      petsc(PetscSectionGetOffset(cones, points[first + k], &ends));
+      vertices_[cell - begin_][k] = points[ends + (orientations[first + k] < 0 ? 1 : 0)];
+    }
   }
+}
+
+std::span<const PetscInt> PlexGeometry::vertices(PetscInt cell) const {
+  const auto& all = vertices_[cell - begin_];
+  return {all.data(), all[3] < 0 ? 3u : 4u};
+}
+
+CellGeometry PlexGeometry::cell(PetscInt cell) const {
+  const auto points = vertices(cell);
+  CellGeometry geometry{points.size(), points.size(), vertices_[cell - begin_], {}};
   // Cell coordinates, not vertex coordinates: on a torus a vertex has one position, a cell at the seam needs
-  // two. They lie together, in the order of the vertices; PETSc's closure, which finds them, costs ten times
-  // as much.
-  PetscSection section = nullptr;
-  PetscInt count = 0, offset = 0;
-  petsc(DMGetCellCoordinateSection(dm, &section));
-  PetscInt begin = 0, end = 0;
-  petsc(PetscSectionGetChart(section, &begin, &end));
-  if (cell >= begin && cell < end) petsc(PetscSectionGetDof(section, cell, &count));
+  // two. They lie together, in the order of the vertices.
+  PetscInt count = 0, first = 0;
+  if (cell >= first_cell_ && cell < last_cell_) petsc(PetscSectionGetDof(in_cells_, cell, &count));
   if (count == 0) {
-    for (PetscInt vertex : geometry.vertices) geometry.corners.push_back(vertex_position(dm, vertex));
+    for (std::size_t k = 0; k < geometry.size; ++k) geometry.corners[k] = position(geometry.vertices[k]);
     return geometry;
   }
-  const PetscScalar* values = nullptr;
-  petsc(PetscSectionGetOffset(section, cell, &offset));
-  petsc(VecGetArrayRead(by_cell, &values));
-  geometry.corners.resize(static_cast<std::size_t>(count / 2));
-  for (std::size_t k = 0; k < geometry.corners.size(); ++k)
-    geometry.corners[k] = {values[offset + 2 * k], values[offset + 2 * k + 1]};
-  petsc(VecRestoreArrayRead(by_cell, &values));
+  petsc(PetscSectionGetOffset(in_cells_, cell, &first));
+  geometry.corner_count = static_cast<std::size_t>(count / 2);
+  for (std::size_t k = 0; k < std::min<std::size_t>(geometry.corner_count, 4); ++k)
+    geometry.corners[k] = {cell_values_[first + 2 * k], cell_values_[first + 2 * k + 1]};
   return geometry;
 }
 
-CellSide side_of(DM dm, PetscInt cell, PetscInt edge) {
+CellSide PlexGeometry::side(PetscInt beside, PetscInt edge) const {
   const PetscInt* ends = nullptr;
-  petsc(DMPlexGetCone(dm, edge, &ends));
-  const auto geometry = cell_geometry(dm, cell);
-  const std::size_t n = geometry.vertices.size();
+  petsc(DMPlexGetCone(dm_, edge, &ends));
+  const CellGeometry geometry = cell(beside);
+  const std::size_t n = geometry.size;
   for (std::size_t k = 0; k < n; ++k) {
     const PetscInt a = geometry.vertices[k], b = geometry.vertices[(k + 1) % n];
     if (!((a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]))) continue;
@@ -85,18 +98,29 @@ CellSide side_of(DM dm, PetscInt cell, PetscInt edge) {
   throw LibraryError("an edge is not among the edges of the cell beside it");
 }
 
-Vector2 vertex_position(DM dm, PetscInt vertex) {
-  Vec coordinates = nullptr;
-  PetscSection section = nullptr;
-  petsc(DMGetCoordinatesLocal(dm, &coordinates));
-  petsc(DMGetCoordinateSection(dm, &section));
+Vector2 PlexGeometry::position(PetscInt vertex) const {
   PetscInt offset = 0;
-  petsc(PetscSectionGetOffset(section, vertex, &offset));
-  const PetscScalar* values = nullptr;
-  petsc(VecGetArrayRead(coordinates, &values));
-  const Vector2 position{values[offset], values[offset + 1]};
-  petsc(VecRestoreArrayRead(coordinates, &values));
-  return position;
+  petsc(PetscSectionGetOffset(at_vertices_, vertex, &offset));
+  return {vertex_values_[offset], vertex_values_[offset + 1]};
+}
+
+std::vector<PetscInt> labelled(DM dm, const std::string& name, int value, PetscInt begin, PetscInt end) {
+  std::vector<PetscInt> points;
+  DMLabel label = nullptr;
+  petsc(DMGetLabel(dm, name.c_str(), &label));
+  if (!label) return points;
+  OwnedIS stratum;
+  petsc(DMLabelGetStratumIS(label, value, stratum.put()));
+  if (!stratum.get()) return points;
+  PetscInt count = 0;
+  const PetscInt* indices = nullptr;
+  petsc(ISGetLocalSize(stratum, &count));
+  petsc(ISGetIndices(stratum, &indices));
+  std::copy_if(indices, indices + count, std::back_inserter(points),
+               [&](PetscInt point) { return point >= begin && point < end; });
+  petsc(ISRestoreIndices(stratum, &indices));
+  std::ranges::sort(points);
+  return points;
 }
 
 }  // namespace slipscale::mesh_stages

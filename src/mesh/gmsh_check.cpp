@@ -134,8 +134,29 @@ using Edge = std::pair<long, long>;
 
 Edge edge_between(long a, long b) { return {std::min(a, b), std::max(a, b)}; }
 
+using Corners = std::array<long, 4>;  ///< tags; a triangle's last is 0, which is no node's
+
+/// Sides of the cells between two nodes that lie on lines, and the nodes themselves.
+std::vector<Edge> sides_on_lines(const std::vector<Edge>& lines, const std::vector<Corners>& cells,
+                                 std::size_t tags) {
+  std::vector<char> on_line(tags, 0);
+  for (const auto& [a, b] : lines) on_line[a] = on_line[b] = 1;
+  on_line[0] = 0;
+  std::vector<Edge> sides;  // a point is a line from a node to itself
+  for (const Corners& corner : cells) {
+    const std::size_t n = corner[3] == 0 ? 3 : 4;
+    for (std::size_t c = 0; c < n; ++c) {
+      const long a = corner[c], b = corner[(c + 1) % n];
+      if (on_line[a]) sides.emplace_back(a, a);
+      if (on_line[a] && on_line[b]) sides.push_back(edge_between(a, b));
+    }
+  }
+  return sides;
+}
+
 /// Curves that are saved must run along the cells.
-void check_lines(std::vector<Edge>& lines, std::vector<Edge>& sides) {
+void check_lines(std::vector<Edge>& lines, const std::vector<Corners>& cells, std::size_t tags) {
+  std::vector<Edge> sides = sides_on_lines(lines, cells, tags);
   std::sort(lines.begin(), lines.end());
   std::sort(sides.begin(), sides.end());
   if (!std::includes(sides.begin(), sides.end(), lines.begin(), std::unique(lines.begin(), lines.end())))
@@ -148,7 +169,8 @@ void elements(Numbers numbers, const Entities& entities, const std::vector<char>
   const long blocks = numbers.count(), count = numbers.count();
   numbers.next(), numbers.next();
   long seen = 0;
-  std::vector<Edge> lines, sides;  // a point is a line from a node to itself
+  std::vector<Edge> lines;  // a point is a line from a node to itself
+  std::vector<Corners> cells;
   for (long block = 0; block < blocks; ++block) {
     const long dimension = numbers.next(), entity = numbers.next(), corners = corners_of(numbers.next());
     if (dimension < 0 || dimension > 3 || !entities[dimension].count(entity))
@@ -157,25 +179,24 @@ void elements(Numbers numbers, const Entities& entities, const std::vector<char>
     const long size = numbers.count();
     for (long k = 0; k < size; ++k) {
       numbers.next();
-      std::array<long, 4> corner{};
+      Corners corner{};
       for (long c = 0; c < corners; ++c) {
         const long node = corner[c] = numbers.next();
-        if (node < 0 || node >= static_cast<long>(nodes.size()) || !nodes[node])
+        if (node < 1 || node >= static_cast<long>(nodes.size()) || !nodes[node])
           throw Fault("is damaged: an element names node " + std::to_string(node) +
                       ", which $Nodes does not list; " + write_again);
       }
-      if (corners <= 2) lines.push_back(edge_between(corner[0], corner[corners - 1]));
-      for (long c = 0; corners > 2 && c < corners; ++c) {
-        sides.push_back(edge_between(corner[c], corner[(c + 1) % corners]));
-        sides.push_back({corner[c], corner[c]});
-      }
+      if (corners <= 2)
+        lines.push_back(edge_between(corner[0], corner[corners - 1]));
+      else
+        cells.push_back(corner);
     }
     seen += size;
   }
   if (seen != count)
     throw Fault(std::string("is damaged: $Elements holds fewer entries than it announces; ") + write_again);
-  if (sides.empty()) throw Fault("has no cells, only points or lines; mesh its surfaces (gmsh -2)");
-  check_lines(lines, sides);
+  if (cells.empty()) throw Fault("has no cells, only points or lines; mesh its surfaces (gmsh -2)");
+  check_lines(lines, cells, nodes.size());
 }
 
 void periodic(Numbers numbers, const std::vector<char>& nodes) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "gmsh_check.hpp"
@@ -48,7 +47,9 @@ GmshFile scan_gmsh(const std::string& path, std::string& fault) {
     fault = "-mesh_file: cannot read '" + path + "'; give the path of a gmsh file (MSH 4.1)";
     return file;
   }
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
   const auto head = bytes.find("$MeshFormat");
   if (head == std::string::npos || head > 4096 ||
       !(std::istringstream(bytes.substr(head + 11, 64)) >> file.version)) {

@@ -27,6 +27,23 @@ Link link(const CellGeometry& cell, std::size_t a, std::size_t b, double size) {
   return {{cell.vertices[a], cell.vertices[b]}, {y[0] - x[0], y[1] - x[1]}, x, size};
 }
 
+/// By vertex, whether it is a corner of a cell that sees one of its corners elsewhere than the vertex is.
+std::vector<char> near_seam(DM dm, const PlexGeometry& plex) {
+  PetscInt begin = 0, end = 0, first = 0, last = 0;
+  petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
+  petsc(DMPlexGetDepthStratum(dm, 0, &first, &last));
+  std::vector<char> near(static_cast<std::size_t>(last - first), 0);
+  for (PetscInt k = begin; k < end; ++k) {
+    const CellGeometry cell = plex.cell(k);
+    bool across = false;
+    for (std::size_t c = 0; c < cell.size; ++c)
+      across = across || cell.corners[c] != plex.position(cell.vertices[c]);
+    if (across)
+      for (const PetscInt vertex : cell.points()) near[vertex - first] = 1;
+  }
+  return near;
+}
+
 }  // namespace
 
 void settle_seam(DM dm) {
@@ -39,11 +56,12 @@ void settle_seam(DM dm) {
   petsc(DMPlexGetDepthStratum(dm, 0, &first, &last));
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   std::vector<Vector2> lowest(static_cast<std::size_t>(last - first), {nowhere, nowhere});
-  for (PetscInt cell = begin; cell < end; ++cell) {
-    const auto geometry = cell_geometry(dm, cell);
-    for (std::size_t k = 0; k < geometry.vertices.size() && k < geometry.corners.size(); ++k) {
-      Vector2& known = lowest[geometry.vertices[k] - first];
-      known = std::min(known, geometry.corners[k]);
+  const PlexGeometry plex(dm);
+  for (PetscInt k = begin; k < end; ++k) {
+    const CellGeometry cell = plex.cell(k);
+    for (std::size_t c = 0; c < std::min(cell.size, cell.corner_count); ++c) {
+      Vector2& known = lowest[cell.vertices[c] - first];
+      known = std::min(known, cell.corners[c]);
     }
   }
   Vec old = nullptr;
@@ -70,22 +88,26 @@ std::string fault_in_torus(DM dm, const MeshSource& source) {
   PetscBool is_torus = PETSC_FALSE;
   petsc(DMGetCoordinatesLocalizedLocal(dm, &is_torus));
   if (!is_torus) return "";
-  PetscInt begin = 0, end = 0;
+  PetscInt begin = 0, end = 0, first = 0;
   petsc(DMPlexGetHeightStratum(dm, 0, &begin, &end));
+  petsc(DMPlexGetDepthStratum(dm, 0, &first, nullptr));
+  const PlexGeometry plex(dm);
+  const std::vector<char> near = near_seam(dm, plex);
   std::vector<Link> links;
-  for (PetscInt cell = begin; cell < end; ++cell) {
-    const auto geometry = cell_geometry(dm, cell);
-    const std::size_t corners = geometry.corners.size(), vertices = geometry.vertices.size();
-    if (vertices < corners && corners <= 4) return too_narrow(source, geometry.corners[0]);
-    if (vertices != corners) continue;
-    const double size = std::sqrt(std::abs(geometry.area()));
-    for (std::size_t a = 0; a < vertices; ++a)
-      for (std::size_t b = a + 1; b < vertices; ++b) {
-        if (geometry.vertices[a] == geometry.vertices[b]) return too_narrow(source, geometry.corners[a]);
-        links.push_back(link(geometry, a, b, size));
+  for (PetscInt k = begin; k < end; ++k) {
+    const CellGeometry cell = plex.cell(k);
+    if (cell.size < cell.corner_count && cell.corner_count <= 4) return too_narrow(source, cell.corners[0]);
+    if (cell.size != cell.corner_count) continue;
+    const double size = std::sqrt(std::abs(cell.area()));
+    for (std::size_t a = 0; a < cell.size; ++a)
+      for (std::size_t b = a + 1; b < cell.size; ++b) {
+        if (cell.vertices[a] == cell.vertices[b]) return too_narrow(source, cell.corners[a]);
+        if (near[cell.vertices[a] - first] && near[cell.vertices[b] - first])
+          links.push_back(link(cell, a, b, size));
       }
   }
-  // Two vertices that are linked in two different ways lie across a period from each other as well.
+  // Two vertices that are linked in two different ways lie across a period from each other as well; one of
+  // the two links is of a cell across the seam.
   std::ranges::sort(links, {}, &Link::vertices);
   for (std::size_t k = 1; k < links.size(); ++k) {
     const Link &one = links[k - 1], &two = links[k];

@@ -13,8 +13,9 @@ std::string at(const Vector2& x) { return format("(%g, %g) m", x[0], x[1]); }
 
 Vector2 centre(const CellGeometry& cell) {
   Vector2 sum{};
-  for (const auto& x : cell.corners) sum = {sum[0] + x[0], sum[1] + x[1]};
-  const double n = static_cast<double>(cell.corners.size());
+  for (std::size_t k = 0; k < cell.size; ++k)
+    sum = {sum[0] + cell.corners[k][0], sum[1] + cell.corners[k][1]};
+  const double n = static_cast<double>(cell.size);
   return {sum[0] / n, sum[1] / n};
 }
 
@@ -68,8 +69,11 @@ bool is_curved(DM dm, PetscInt vertices) {
 
 /// What is measured on rank 0 and told to all.
 struct Survey {
+  Survey(const MeshSource& mesh_source, Whole& mesh) : source(mesh_source), whole(mesh) {}
+
   const MeshSource& source;
   Whole& whole;
+  const PlexGeometry geometry{whole.dm};
   std::string fault;
   std::vector<int> region_of;  ///< by cell
 
@@ -79,17 +83,17 @@ struct Survey {
     region_of.assign(static_cast<std::size_t>(end - begin), -1);
     for (std::size_t r = 0; r < whole.regions.size() && fault.empty(); ++r) {
       Region& region = whole.regions[r];
-      for (PetscInt cell : labelled(region.name, region.tag, begin, end)) {
+      for (PetscInt cell : labelled(whole.dm, region.name, region.tag, begin, end)) {
         int& known = region_of[cell - begin];
         if (known >= 0) {
-          fault = "mesh '" + source.file + "': cell at " + at(centre(cell_geometry(whole.dm, cell))) +
+          fault = "mesh '" + source.file + "': cell at " + at(centre(geometry.cell(cell))) +
                   " belongs to both regions '" + whole.regions[known].name + "' and '" + region.name +
                   "'; leave it in one physical surface";
           return;
         }
         known = static_cast<int>(r);
         ++region.cells;
-        region.area += cell_geometry(whole.dm, cell).area();
+        region.area += geometry.cell(cell).area();
       }
       if (region.cells == 0)
         fault = "mesh '" + source.file + "': region '" + region.name +
@@ -115,21 +119,21 @@ struct Survey {
   }
 
   void check(PetscInt cell, PetscInt begin, PetscInt node_begin, std::vector<char>& seen) {
-    const auto geometry = cell_geometry(whole.dm, cell);
-    const std::size_t n = geometry.vertices.size();
-    if ((n != 3 && n != 4) || geometry.corners.size() != n || curved) {
+    const CellGeometry shape = geometry.cell(cell);
+    const std::size_t n = shape.size;
+    if ((n != 3 && n != 4) || shape.corner_count != n || curved) {
       fault = "mesh '" + source.file +
               "' has cells that are not three- or four-cornered and straight; use gmsh -order 1";
       return;
     }
     double longest = 0;
     for (std::size_t k = 0; k < n; ++k) {
-      const Vector2 &a = geometry.corners[k], &b = geometry.corners[(k + 1) % n];
+      const Vector2 &a = shape.corners[k], &b = shape.corners[(k + 1) % n];
       const double edge = std::hypot(b[0] - a[0], b[1] - a[1]);
       longest = std::max(longest, edge);
       whole.shortest_edge = std::min(whole.shortest_edge, edge);
-      const Vector2 home = vertex_position(whole.dm, geometry.vertices[k]);
-      seen[geometry.vertices[k] - node_begin] = 1;
+      const Vector2 home = geometry.position(shape.vertices[k]);
+      seen[shape.vertices[k] - node_begin] = 1;
       for (int axis = 0; axis < 2; ++axis) {
         whole.lower[axis] = std::min(whole.lower[axis], a[axis]);
         whole.upper[axis] = std::max(whole.upper[axis], a[axis]);
@@ -137,14 +141,14 @@ struct Survey {
       }
     }
     // Relative to its longest edge, so that a mesh in millimetres or metres is judged alike.
-    const double smallest = geometry.smallest_corner();
+    const double smallest = shape.smallest_corner();
     if (!(smallest > 1e-9 * longest * longest))  // not a number counts as well
-      fault = "mesh '" + source.file + "': the cell at " + at(centre(geometry)) +
+      fault = "mesh '" + source.file + "': the cell at " + at(centre(shape)) +
               (smallest < 0 ? " is inverted (its corners do not run counter-clockwise, or it is not convex)"
                             : " is degenerate (it has next to no area)") +
               "; mend the mesh, or reverse the surface's orientation";
     else if (region_of[cell - begin] < 0)
-      fault = "mesh '" + source.file + "': the cell at " + at(centre(geometry)) +
+      fault = "mesh '" + source.file + "': the cell at " + at(centre(shape)) +
               " belongs to no region; put its surface in a Physical Surface (known: " + names(whole.regions) +
               ")";
   }
@@ -155,13 +159,13 @@ struct Survey {
     for (Boundary& boundary : whole.boundaries) {
       if (!fault.empty()) return;
       Vector2 sum{};
-      for (PetscInt edge : labelled(boundary.name, boundary.tag, begin, end)) {
+      for (PetscInt edge : labelled(whole.dm, boundary.name, boundary.tag, begin, end)) {
         PetscInt sides = 0;
         const PetscInt* support = nullptr;
         petsc(DMPlexGetSupportSize(whole.dm, edge, &sides));
         petsc(DMPlexGetSupport(whole.dm, edge, &support));
         if (sides > 1) boundary.interior = true;
-        const Vector2 outward = side_of(whole.dm, support[0], edge).outward;
+        const Vector2 outward = geometry.side(support[0], edge).outward;
         sum = {sum[0] + outward[0], sum[1] + outward[1]};
         boundary.length += std::hypot(outward[0], outward[1]);
         ++boundary.edge_count;
@@ -173,24 +177,6 @@ struct Survey {
       if (!boundary.interior && size > 1e-6 * boundary.length)
         boundary.normal = {sum[0] / size, sum[1] / size};
     }
-  }
-
-  std::vector<PetscInt> labelled(const std::string& name, int tag, PetscInt begin, PetscInt end) const {
-    std::vector<PetscInt> points;
-    DMLabel label = nullptr;
-    petsc(DMGetLabel(whole.dm, name.c_str(), &label));
-    if (!label) return points;
-    OwnedIS stratum;
-    petsc(DMLabelGetStratumIS(label, tag, stratum.put()));
-    if (!stratum.get()) return points;
-    PetscInt count = 0;
-    const PetscInt* indices = nullptr;
-    petsc(ISGetLocalSize(stratum, &count));
-    petsc(ISGetIndices(stratum, &indices));
-    std::copy_if(indices, indices + count, std::back_inserter(points),
-                 [&](PetscInt point) { return point >= begin && point < end; });
-    petsc(ISRestoreIndices(stratum, &indices));
-    return points;
   }
 
   static std::string names(const std::vector<Region>& regions) {
@@ -243,7 +229,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   petsc(DMGetCellCoordinatesLocalSetUp(whole.dm));
   settle_seam(whole.dm);
 
-  Survey survey{source, whole, {}, {}, {}};
+  Survey survey(source, whole);
   if (rank == 0) {
     survey.regions();
     if (survey.fault.empty()) survey.cells();
@@ -253,7 +239,7 @@ Whole load_whole(MPI_Comm comm, const MeshSource& source, const GmshFile& file) 
   }
   throw_together(comm, survey.fault);
   tell_all(comm, whole);
-  if (rank == 0) whole.number = whole_mesh_order(whole.dm);
+  if (rank == 0) whole.number = whole_mesh_order(whole.dm, survey.geometry);
   return whole;
 }
 
