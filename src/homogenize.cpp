@@ -1,14 +1,16 @@
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/mesh/read.hpp"
 #include "slipscale/record/homogenised.hpp"
 #include "slipscale/record/localization_file.hpp"
-#include "slipscale/mesh/read.hpp"
 #include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
@@ -18,7 +20,7 @@ namespace {
 Schema cell_schema() {
   return {
       {"cell_boundary", Kind::text, "", "periodic", range::one_of({"periodic", "kubc", "subc", "all"}),
-       "periodic, linear displacement, uniform traction, or all three for comparison"},
+       "periodic, linear displacement, uniform traction, or on a periodic mesh all three for comparison"},
       {"cell_estimate_error",
        Kind::flag,
        "",
@@ -34,12 +36,24 @@ Schema cell_schema() {
       {"run_<entry>", Kind::text, "", absent, range::any, "what a file tells about a run; read by nobody"}};
 }
 
+struct Choice {
+  MeshSource source;
+  std::vector<CellBoundary> kinds;
+  bool estimate_error;
+  std::string folder;
+};
+
 std::vector<CellBoundary> boundaries(const Options& options) {
   const std::string text = options.text("cell_boundary");
   std::vector<CellBoundary> found;
   for (const CellBoundary each : {CellBoundary::periodic, CellBoundary::kubc, CellBoundary::subc})
     if (text == "all" || text == name(each)) found.push_back(each);
   return found;
+}
+
+Choice read_choice(const Options& options) {
+  return {mesh_source(options), boundaries(options), options.flag("cell_estimate_error"),
+          options.text("output_folder")};
 }
 
 /// A mesh for each kind of boundary: the torus, and the same block with its sides open.
@@ -69,42 +83,60 @@ void measure_costs(MPI_Comm comm, std::chrono::steady_clock::time_point start, H
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Sees before the work that there is a place for its result, and leaves it as it is.
+void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
+  std::filesystem::path place = std::filesystem::absolute(folder);
+  std::error_code none;
+  while (!std::filesystem::exists(place, none) && place.has_relative_path()) place = place.parent_path();
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  const bool usable =
+      rank != 0 || (std::filesystem::is_directory(place, none) && access(place.c_str(), W_OK) == 0);
+  throw_together(comm, usable ? ""
+                              : "-output_folder '" + folder + "' cannot be written to ('" + place.string() +
+                                    "' is no folder, or not yours); give a folder that you may write to");
+}
+
+/// Solves for each kind of boundary, for the first on its mesh `mesh`, and on the refined ones.
+Homogenised solve(MPI_Comm comm, const Choice& choice, const Mesh& mesh,
+                  const std::vector<Material>& materials, const Options& options) {
+  Homogenised found;
+  found.phases = phases(mesh, materials);
+  found.cells = mesh.cells.total;
+  found.nodes = mesh.nodes.total;
+  MeshSource finer = choice.source;
+  ++finer.refine;
+  for (const CellBoundary kind : choice.kinds) {
+    const bool is_first = kind == choice.kinds.front();
+    found.solutions.push_back(is_first
+                                  ? solve_cell(comm, mesh, materials, kind)
+                                  : solve_cell(comm, mesh_for(comm, choice.source, kind), materials, kind));
+    if (is_first) options.refuse_unknown();  // the solver has read its own
+    if (choice.estimate_error)
+      found.refined.push_back(solve_cell(comm, mesh_for(comm, finer, kind), materials, kind).stiffness);
+  }
+  found.phase_means = phase_means(comm, mesh, found.solutions.front());
+  return found;
+}
+
 void homogenize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const auto start = std::chrono::steady_clock::now();
-  const MeshSource source = mesh_source(options);
-  const std::vector<CellBoundary> kinds = boundaries(options);
-  const bool estimate_error = options.flag("cell_estimate_error");
-  const OutputFolder folder(comm, options.text("output_folder"),
-                            {"effective.yaml", "localization.h5", "localization.xdmf"});
+  const Choice choice = read_choice(options);
+  refuse_unwritable(comm, choice.folder);
+  const Mesh mesh = mesh_for(comm, choice.source, choice.kinds.front());
+  std::vector<std::string> regions = mesh.region_names();
+  regions.push_back("all");
+  options.know_names("region", regions);
+  const std::vector<Material> materials = read_materials(options, mesh.region_names());
+  options.refuse_unread();
+  for (const std::string& note : options.notes()) print(note + "\n");
 
-  Homogenised found;
-  for (const CellBoundary kind : kinds) {
-    const Mesh mesh = mesh_for(comm, source, kind);
-    std::vector<std::string> regions = mesh.region_names();
-    regions.push_back("all");
-    options.know_names("region", regions);
-    const std::vector<Material> materials = read_materials(options, mesh.region_names());
-    if (kind == kinds.front()) {
-      options.refuse_unread();
-      found.phases = phases(mesh, materials);
-      found.cells = mesh.cells.total;
-      found.nodes = mesh.nodes.total;
-    }
-    CellSolution solution = solve_cell(comm, mesh, materials, kind);
-    if (kind == kinds.front()) {
-      options.refuse_unknown();
-      found.phase_means = phase_means(comm, mesh, solution);
-      write_localization(comm, mesh, materials, solution, folder.path());
-    }
-    found.solutions.push_back(std::move(solution));
-    if (estimate_error) {
-      MeshSource finer = source;
-      ++finer.refine;
-      const Mesh refined = mesh_for(comm, finer, kind);
-      found.refined.push_back(solve_cell(comm, refined, materials, kind).stiffness);
-    }
-  }
+  Homogenised found = solve(comm, choice, mesh, materials, options);
+
+  // Only now do the files of an older run give way.
+  const OutputFolder folder(comm, choice.folder, {"effective.yaml", "localization.h5", "localization.xdmf"});
+  write_localization(comm, mesh, materials, found.solutions.front(), folder.path());
   measure_costs(comm, start, found);
   folder.write_text("effective.yaml", effective_yaml(found, options.effective()));
   print(describe(found));

@@ -1,52 +1,15 @@
 #include "slipscale/cell/cell_problem.hpp"
 
-#include <chrono>
 #include <cmath>
 
+#include "cell_fit.hpp"
+#include "cell_solver.hpp"
 #include "cell_system.hpp"
 #include "outer_boundary.hpp"
-#include "slipscale/base/error.hpp"
-#include "slipscale/base/print.hpp"
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale {
 namespace {
-
-constexpr double tolerance = 1e-10;      ///< of the residual, relative
-constexpr double rounding = 1e-13;       ///< of the residual, over the forces that cancel in it
-constexpr PetscInt direct_below = 5000;  ///< unknowns: a factorisation is quicker than multigrid
-constexpr PetscInt most_iterations = 500;
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-PetscErrorCode form_residual(SNES, Vec u, Vec out, void* system) {
-  return static_cast<CellSystem*>(system)->residual(u, out);
-}
-
-PetscErrorCode form_jacobian(SNES, Vec, Mat, Mat matrix, void* system) {
-  return static_cast<CellSystem*>(system)->jacobian(matrix);
-}
-
-void refuse_unfit(MPI_Comm comm, const Mesh& mesh, CellBoundary boundary,
-                  const std::vector<OuterEdge>& outer) {
-  long edges = static_cast<long>(outer.size());
-  MPI_Allreduce(MPI_IN_PLACE, &edges, 1, MPI_LONG, MPI_SUM, comm);
-  if (boundary == CellBoundary::periodic && edges > 0)
-    throw UserError(
-        "-cell_boundary periodic needs a mesh whose opposite sides are periodic curves of gmsh, but '" +
-        mesh.file + "' has outer edges left" +
-        (mesh.periodic[0] || mesh.periodic[1] ? " (it is periodic along one axis only)" : "") +
-        "; make all sides periodic, or take -cell_boundary kubc or subc");
-  if (boundary != CellBoundary::periodic && edges == 0)
-    throw UserError("-cell_boundary " + std::string(name(boundary)) + " needs an outer boundary, but '" +
-                    mesh.file + "' closes on itself; take -cell_boundary periodic");
-  if (const int parts = connected_parts(comm, mesh); parts > 1)
-    throw UserError(
-        format("mesh '%s' falls into %d parts that share no node, so that some of them float; keep one "
-               "part, or mesh what is between them",
-               mesh.file.c_str(), parts));
-}
 
 /// Where the whole mesh's first node is, and what the other ranks need to know of it.
 void hold_first_node(const Mesh& mesh, CellSystem& system) {
@@ -144,127 +107,6 @@ Eigen::Vector3d mean_strain(const CellGeometryView& cell, const CellSystem& syst
   }
   return strain;
 }
-
-class CellSolver {
- public:
-  /// `force` is the size of the forces that act, N/m: a homogeneous cell leaves nothing but its rounding.
-  CellSolver(MPI_Comm comm, CellSystem& system, double force) : system_(system), force_(force) {
-    const auto start = Clock::now();
-    matrix_ = system.matrix();
-    u_ = system.vector();
-    residual_ = system.vector();
-    petsc(MatSetNearNullSpace(matrix_, system.rigid_motions()));
-    petsc(SNESCreate(comm, snes_.put()));
-    petsc(SNESSetOptionsPrefix(snes_, "cell_"));
-    petsc(SNESSetFunction(snes_, residual_, form_residual, &system));
-    petsc(SNESSetJacobian(snes_, matrix_, matrix_, form_jacobian, &system));
-    petsc(SNESSetTolerances(snes_, rounding * force_, 2 * tolerance, 0, 10, PETSC_DEFAULT));
-    SNESLineSearch search = nullptr;
-    petsc(SNESGetLineSearch(snes_, &search));
-    petsc(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
-    choose_solver();
-    petsc(SNESSetFromOptions(snes_));
-    measure_as_snes();
-    // The problem is linear: one Jacobian and one preconditioner serve all load cases.
-    petsc(SNESSetLagJacobian(snes_, -2));
-    petsc(SNESSetLagJacobianPersists(snes_, PETSC_TRUE));
-    petsc(SNESSetLagPreconditioner(snes_, -2));
-    petsc(SNESSetLagPreconditionerPersists(snes_, PETSC_TRUE));
-    petsc(SNESSetUp(snes_));
-    KSP ksp = nullptr;
-    petsc(SNESGetKSP(snes_, &ksp));
-    petsc(SNESComputeJacobian(snes_, u_, matrix_, matrix_));
-    petsc(KSPSetOperators(ksp, matrix_, matrix_));
-    petsc(KSPSetUp(ksp));
-    seconds_ = since(start);
-  }
-
-  double set_up_seconds() const { return seconds_; }
-
-  CaseCost solve(int load_case) {
-    const auto start = Clock::now();
-    petsc(VecSet(u_, 0));
-    petsc(SNESSolve(snes_, nullptr, u_));
-    CaseCost cost;
-    SNESConvergedReason reason;
-    petsc(SNESGetConvergedReason(snes_, &reason));
-    petsc(SNESGetIterationNumber(snes_, &cost.newton_steps));
-    petsc(SNESGetLinearSolveIterations(snes_, &cost.iterations));
-    cost.converged = SNESConvergedReasons[reason];
-    if (reason < 0) refuse(load_case, cost);
-    system_.load(u_);
-    cost.seconds = since(start);
-    return cost;
-  }
-
-  std::string description() const {
-    KSP ksp = nullptr;
-    PC pc = nullptr;
-    KSPType solver = nullptr;
-    PCType preconditioner = nullptr;
-    petsc(SNESGetKSP(snes_, &ksp));
-    petsc(KSPGetPC(ksp, &pc));
-    petsc(KSPGetType(ksp, &solver));
-    petsc(PCGetType(pc, &preconditioner));
-    return std::string(solver) + " + " + preconditioner;
-  }
-
- private:
-  /// Conjugate gradients with algebraic multigrid, or a factorisation of small cells.
-  void choose_solver() {
-    KSP ksp = nullptr;
-    PC pc = nullptr;
-    PetscInt unknowns = 0;
-    petsc(VecGetSize(u_, &unknowns));
-    petsc(SNESGetKSP(snes_, &ksp));
-    petsc(KSPGetPC(ksp, &pc));
-    petsc(KSPSetTolerances(ksp, tolerance, rounding * force_, PETSC_DEFAULT, most_iterations));
-    if (unknowns < direct_below) {
-      petsc(KSPSetType(ksp, KSPPREONLY));
-      petsc(PCSetType(pc, PCCHOLESKY));
-      petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-      return;
-    }
-    petsc(KSPSetType(ksp, KSPCG));
-    petsc(PCSetType(pc, PCGAMG));
-    // Weak couplings are left out of the aggregates: without this a contrast of 1e4 takes five times the
-    // iterations.
-    PetscReal threshold = 0.05;
-    petsc(PCGAMGSetThreshold(pc, &threshold, 1));
-  }
-
-  /// Conjugate gradients stop by the norm that SNES looks at, so that one Newton step will do; unless the
-  /// user chose another.
-  void measure_as_snes() {
-    KSP ksp = nullptr;
-    PetscBool iterates = PETSC_FALSE, chosen = PETSC_FALSE;
-    petsc(SNESGetKSP(snes_, &ksp));
-    petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPCG, &iterates));
-    petsc(PetscOptionsHasName(nullptr, "cell_", "-ksp_norm_type", &chosen));
-    if (iterates && !chosen) petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
-  }
-
-  [[noreturn]] void refuse(int load_case, const CaseCost& cost) const {
-    KSP ksp = nullptr;
-    KSPConvergedReason linear;
-    petsc(SNESGetKSP(snes_, &ksp));
-    petsc(KSPGetConvergedReason(ksp, &linear));
-    static constexpr const char* cases[] = {"xx", "yy", "xy"};
-    throw UserError(
-        format("the cell problem under unit load %s did not converge (SNES %s, KSP %s after %d "
-               "iterations); try -cell_pc_type cholesky -cell_ksp_type preonly, or allow more with "
-               "-cell_ksp_max_it",
-               cases[load_case], cost.converged.c_str(), KSPConvergedReasons[linear],
-               static_cast<int>(cost.iterations)));
-  }
-
-  CellSystem& system_;
-  const double force_;
-  OwnedMat matrix_;
-  OwnedVec u_, residual_;
-  OwnedSNES snes_;
-  double seconds_ = 0;
-};
 
 /// Euclidean norm of the nodal forces of single elements under a unit load, about: stress times the square
 /// root of the area, N/m.

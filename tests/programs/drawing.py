@@ -2,12 +2,11 @@
 
 import os
 import struct
-import tempfile
 import zlib
 from pathlib import Path
 
 import meshio
-from running import KEEP_CODE, MPIEXEC, InScratch, arguments_of, run
+from running import InScratch, arguments_of
 
 MORPHOLOGY = os.environ["SLIPSCALE_MORPHOLOGY"]
 FILES = {"mesh.msh", "morphology.yaml", "morphology.png"}
@@ -50,16 +49,7 @@ class Drawing(InScratch):
     """A test with a folder of its own, where it runs `morphology`."""
 
     def morphology(self, *arguments, ranks=1, folder=None):
-        """Runs to the end; one rank runs without mpiexec."""
-        arguments = [str(argument) for argument in arguments]
-        folder = folder or self.folder
-        if ranks == 1:
-            return run([MORPHOLOGY, *arguments], folder, self.environment())
-        with tempfile.TemporaryDirectory() as codes:
-            command = [MPIEXEC, "-n", str(ranks), "bash", "-c", KEEP_CODE, MORPHOLOGY, *arguments]
-            outcome = run(command, folder, self.environment(CODES=codes))
-            outcome.codes = [int((Path(codes) / str(rank)).read_text()) for rank in range(ranks)]
-        return outcome
+        return self.launch(MORPHOLOGY, *arguments, ranks=ranks, folder=folder)
 
     def draw(self, recipe, *arguments, ranks=1, **changes):
         """Draws a recipe that must succeed without a word on stderr; returns what was said."""

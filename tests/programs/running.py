@@ -1,6 +1,6 @@
-"""Runs `slide` as a user does and looks at what it says, returns and writes.
+"""Runs the programs as a user does and looks at what they say, return and write.
 
-The environment says where the programs are: SLIPSCALE_SLIDE, SLIPSCALE_MPIEXEC.
+The environment says where they are: SLIPSCALE_SLIDE, SLIPSCALE_MPIEXEC, and others where they are used.
 """
 
 import os
@@ -45,23 +45,36 @@ class InScratch(unittest.TestCase):
         kept = {name: value for name, value in os.environ.items() if not name.startswith("PETSC_OPTIONS")}
         return {**kept, "HOME": str(self.folder), **more}
 
-    def slide(self, *arguments, ranks=1, folder=None):
+    def launch(self, program, *arguments, ranks=1, folder=None):
         """Runs to the end, in the test's own folder or another. One rank runs without mpiexec, as on a laptop."""
         arguments = [str(argument) for argument in arguments]
         folder = folder or self.folder
         if ranks == 1:
-            return run([SLIDE, *arguments], folder, self.environment())
+            return run([program, *arguments], folder, self.environment())
         with tempfile.TemporaryDirectory() as codes:
-            command = [MPIEXEC, "-n", str(ranks), "bash", "-c", KEEP_CODE, SLIDE, *arguments]
+            command = [MPIEXEC, "-n", str(ranks), "bash", "-c", KEEP_CODE, program, *arguments]
             outcome = run(command, folder, self.environment(CODES=codes))
             outcome.codes = [int((Path(codes) / str(rank)).read_text()) for rank in range(ranks)]
         return outcome
+
+    def slide(self, *arguments, ranks=1, folder=None):
+        return self.launch(SLIDE, *arguments, ranks=ranks, folder=folder)
 
     def run_scene(self, scene, ranks=1, **changes):
         """Runs a scene (a dict of options, see `arguments_of`) that must succeed without a word on stderr."""
         outcome = self.slide(*arguments_of({**scene, **changes}), ranks=ranks)
         self.assertEqual((outcome.codes, outcome.err), ([0] * ranks, ""), outcome.out)
         return outcome
+
+    def assert_refused(self, program, outcome, words, ranks):
+        """One sentence with all these words, and exit code 2 on every rank."""
+        said = f"\nout: {outcome.out}\nerr: {outcome.err}"
+        self.assertEqual(outcome.codes, [2] * ranks, said)
+        self.assertRegex(outcome.err, rf"\A{program}: [^\n]+\n\Z", said)
+        for word in words:
+            self.assertIn(word, outcome.err, said)
+        for noise in ("PETSC ERROR", "what():", "WARNING!", "Traceback"):
+            self.assertNotIn(noise, outcome.out + outcome.err)
 
 
 def run(command, folder, environment):
@@ -78,6 +91,11 @@ def arguments_of(scene):
 def yaml_of(scene):
     """The same as a YAML file of flat keys."""
     return "".join(f"{name}: {value}\n" for name, value in scene.items() if value is not None)
+
+
+def snapshot(folder):
+    """Every file and folder below, with what the files hold."""
+    return {path.relative_to(folder): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
 
 
 def datasets(path):

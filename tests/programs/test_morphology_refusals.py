@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from drawing import DISCS, FILES, GRAINS, GRID, IMAGE, LAYERS, SQUARE, Drawing, families, png
-from running import arguments_of
+from running import arguments_of, snapshot
 
 RANKS = int(os.environ.get("SLIPSCALE_RANKS", "1"))
 AT_ONCE = 2
@@ -188,11 +188,6 @@ MISTAKES = {
 }
 
 
-def snapshot(folder):
-    """Every file and folder below, with what the files hold."""
-    return {path.relative_to(folder): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
-
-
 def pictures(folder):
     (folder / "grains.png").write_bytes(GRAINS)
     (folder / "truncated.png").write_bytes(GRAINS[:len(GRAINS) // 2])
@@ -228,20 +223,14 @@ class Refusals(Drawing):
         return outcome, before, snapshot(folder), folder
 
     def check(self, mistake, outcome, before, after, folder):
-        said = f"\nout: {outcome.out}\nerr: {outcome.err}"
-        self.assertEqual(outcome.codes, [2] * RANKS, said)
-        self.assertRegex(outcome.err, re.compile(r"\Amorphology: [^\n]+\n\Z"), said)
-        for word in mistake.words:
-            self.assertIn(word, outcome.err, said)
-        for noise in ("PETSC ERROR", "what():", "WARNING!", "Traceback"):
-            self.assertNotIn(noise, outcome.out + outcome.err)
+        self.assert_refused("morphology", outcome, mistake.words, RANKS)
         self.assertEqual(before, after, "files were touched")
         if mistake.cure and RANKS == 1:
             feasible = re.search(FEASIBLE, outcome.err)
-            self.assertTrue(feasible, said)
+            self.assertTrue(feasible, outcome.err)
             cured = {**DISCS, **mistake.changes, mistake.cure: feasible[1]}
             again = self.morphology(*arguments_of(cured), folder=folder)
-            self.assertEqual((again.codes, again.err), ([0], ""), said)
+            self.assertEqual((again.codes, again.err), ([0], ""), outcome.err)
 
 
 if __name__ == "__main__":

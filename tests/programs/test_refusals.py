@@ -4,13 +4,12 @@ SLIPSCALE_RANKS says on how many ranks.
 """
 
 import os
-import re
 import shutil
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
-from running import InScratch, arguments_of, yaml_of
+from running import InScratch, arguments_of, snapshot, yaml_of
 from scenes import block
 
 RANKS = int(os.environ.get("SLIPSCALE_RANKS", "1"))
@@ -179,11 +178,6 @@ MISTAKES = {
 }
 
 
-def snapshot(folder):
-    """Every file and folder below, with what the files hold."""
-    return {path.relative_to(folder): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
-
-
 OF_A_RUN = ("run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf")
 
 
@@ -223,13 +217,7 @@ class Refusals(InScratch):
         return outcome, before, snapshot(folder)
 
     def check(self, mistake, outcome, before, after):
-        said = f"\nout: {outcome.out}\nerr: {outcome.err}"
-        self.assertEqual(outcome.codes, [2] * RANKS, said)
-        self.assertRegex(outcome.err, re.compile(r"\Aslide: [^\n]+\n\Z"), said)
-        for word in mistake.words:
-            self.assertIn(word, outcome.err, said)
-        for noise in ("PETSC ERROR", "what():", "WARNING!", "Traceback"):
-            self.assertNotIn(noise, outcome.out + outcome.err)
+        self.assert_refused("slide", outcome, mistake.words, RANKS)
         self.assertEqual(before, after, "files were touched")
 
     def test_the_scene_without_mistakes(self):

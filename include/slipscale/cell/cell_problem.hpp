@@ -44,8 +44,9 @@ struct CellSolution {
 };
 
 /// Solves the cell by SNES/KSP under the options prefix `cell_`. One Jacobian serves the three cases. Throws
-/// UserError when the mesh does not fit the boundary condition (periodic needs a torus, the others need a
-/// boundary), when it falls into parts, and when the solver does not converge. Collective.
+/// UserError when the mesh does not fit the boundary condition (periodic needs a torus whose sides match, the
+/// others need a boundary), when it falls into parts or has holes, when PETSc does not take the solver that
+/// is asked for, and when the solver does not converge. Collective.
 CellSolution solve_cell(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials,
                         CellBoundary boundary);
 
