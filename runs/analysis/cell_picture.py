@@ -10,59 +10,37 @@ import math
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
 
-from analysis.mesh import interfaces, triangles_of
-from analysis.reading import UnreadableRun, open_hdf5, read_dataset, read_yaml
+from analysis.drawing import draw_cells, limits_of, plt, write_picture
+from analysis.reading import OnMesh, UnreadableRun, read_dataset, read_yaml
 
 GIGA = 1e-9
 CASES = (("xx", r"\sigma_{xx}", r"E_{xx}"), ("yy", r"\sigma_{yy}", r"E_{yy}"), ("xy", r"\sigma_{xy}", r"\gamma_{xy}"))
 SIX = {"C11": (0, 0), "C22": (1, 1), "C12": (0, 1), "C66": (2, 2), "C16": (0, 2), "C26": (1, 2)}
-PREFIXES = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
 
 
-class Cell:
+class Cell(OnMesh):
     """localization.h5 and effective.yaml of a folder.
 
-    coordinates [np, 2] m; triangles [nt, 3] point numbers (a quadrilateral gives two), cell_of_triangle [nt];
-    region [nc] and region_names; area [nc] m2; stress[case] [nc, 3] Pa (xx, yy, xy) per unit macroscopic strain
+    area [nc] m2; stress[case] [nc, 3] Pa (xx, yy, xy) per unit macroscopic strain
     xx, yy or xy; boundary, the name of the condition. `report` is what effective.yaml holds, stiffness [6] Pa.
     """
 
     def __init__(self, folder):
-        folder = Path(folder)
-        for name in ("localization.h5", "effective.yaml"):
-            if not (folder / name).is_file():
-                raise UnreadableRun(f"There is no {name} in {folder}: give the output folder of a `homogenize` run.")
-        with open_hdf5(folder / "localization.h5") as file:
-            self.coordinates = read_dataset(file, "mesh/coordinates")[:, :2]
-            self.triangles, self.cell_of_triangle = triangles_of(read_dataset(file, "mesh/cells"))
-            self.region = read_dataset(file, "mesh/region").ravel()
-            self.area = read_dataset(file, "cell/area").ravel()
-            self.stress = {case: read_dataset(file, f"cell/stress_{case}") for case, _, _ in CASES}
-        self.yaml = read_yaml(folder / "effective.yaml")
+        super().__init__(Path(folder) / "localization.h5", "homogenize")
+        with self:
+            self.area = read_dataset(self._file, "cell/area").ravel()
+            self.stress = {case: read_dataset(self._file, f"cell/stress_{case}") for case, _, _ in CASES}
+        report = Path(folder) / "effective.yaml"
+        if not report.is_file():
+            raise UnreadableRun(f"There is no {report.name} in {folder}: give the output folder of a `homogenize` run.")
+        self.yaml = read_yaml(report)
         self.report = self.yaml.get("homogenize") or {}
         self.stiffness = np.array(self.yaml.get("stiffness", []), dtype=float)
         if self.stiffness.shape != (6,):
-            raise UnreadableRun(f"{folder / 'effective.yaml'} has no stiffness of six numbers: run `homogenize` again.")
+            raise UnreadableRun(f"{report} has no stiffness of six numbers: run `homogenize` again.")
         self.boundary = self.report.get("boundary", "")
-
-    def length_unit(self):
-        """A factor from metres and the name of the unit that suits the cell's size."""
-        size = np.ptp(self.coordinates, axis=0).max()
-        for metres, name in PREFIXES:
-            if size >= 0.999 * metres:
-                return 1 / metres, name
-        return 1 / PREFIXES[-1][0], PREFIXES[-1][1]
-
-    def outlines(self):
-        """Segments [ns, 2, 2] m between the phases."""
-        return interfaces(self.coordinates, self.triangles, self.region[self.cell_of_triangle])
 
 
 def stress_panel(axes, figure, cell, case, letter):
@@ -70,20 +48,11 @@ def stress_panel(axes, figure, cell, case, letter):
     component = [name for name, _, _ in CASES].index(case)
     _, stress_name, strain_name = CASES[component]
     stress = cell.stress[case][:, component] * GIGA
-    scale, unit = cell.length_unit()
-    x, y = cell.coordinates.T * scale
-    low, high = np.percentile(stress, [0.5, 99.5])
-    if not high - low > 1e-6 * abs(high):  # a homogeneous cell
-        low, high = low - 0.05 * abs(low), high + 0.05 * abs(high)
-    image = axes.tripcolor(x, y, cell.triangles, facecolors=stress[cell.cell_of_triangle], cmap="cividis", vmin=low,
-                           vmax=high, rasterized=True)
-    axes.add_collection(LineCollection(cell.outlines() * scale, colors="black", linewidths=0.8))
+    image = draw_cells(axes, cell, stress, ("cividis", *limits_of(stress, 0.5)))
     figure.colorbar(image, ax=axes, label=f"${stress_name}/{strain_name}$ [GPa]", extend="both", pad=0.02)
-    axes.margins(0)
-    axes.set_aspect("equal")
     mean = np.average(stress, weights=cell.area)
     axes.set(title=f"({letter}) ${stress_name}$ under ${strain_name}$: {stress.min():.4g} to {stress.max():.4g}, "
-                   f"mean {mean:.5g} GPa", xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+                   f"mean {mean:.5g} GPa")
 
 
 def stiffness_rows(cell):
@@ -162,18 +131,7 @@ def draw(folder):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", help="output folder of a homogenize run")
-    parser.add_argument("picture", help="image to write; the ending chooses the format")
-    options = parser.parse_args(arguments)
-    endings = plt.figure().canvas.get_supported_filetypes()
-    if Path(options.picture).suffix.lstrip(".") not in endings:
-        parser.error(f"{options.picture} should end in one of: {', '.join(endings)}")
-    plt.rcParams.update({"font.size": 11, "axes.titlesize": 11.5})
-    try:
-        draw(options.folder).savefig(options.picture, dpi=120)
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+    return write_picture(parser, lambda options: draw(options.folder), arguments)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
-"""Triangles and outlines of a mesh, for plotting."""
+"""Triangles, outlines, areas and places of a mesh, for plotting."""
 
 import numpy as np
+from matplotlib.tri import Triangulation
 
 XDMF_CORNERS = {4: 3, 5: 4}  # cell types of XDMF's Mixed topology: triangle, quadrilateral
 
@@ -37,3 +38,26 @@ def interfaces(coordinates, triangles, region):
     edges, side = edges[order], side[order]
     shared = np.all(edges[1:] == edges[:-1], axis=1) & (side[1:] != side[:-1])
     return coordinates[edges[:-1][shared]]
+
+
+def centroids_and_areas(coordinates, triangles, cell_of_triangle):
+    """Centroids [nc, 2] and areas [nc] of the cells."""
+    a, b, c = (coordinates[triangles[:, k]] for k in range(3))
+    area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    of_cell = np.bincount(cell_of_triangle, area)
+    moment = [np.bincount(cell_of_triangle, area * x) for x in ((a + b + c) / 3).T]
+    return np.column_stack(moment) / of_cell[:, None], of_cell
+
+
+def cells_at(coordinates, triangles, cell_of_triangle, points):
+    """The cell [n] that holds each of the points [n, 2]; -1 outside the mesh.
+
+    Points of the mesh at the same place count as one: a seam that is written twice is none. Raises RuntimeError when
+    triangles overlap.
+    """
+    size = np.ptp(coordinates, axis=0).max()
+    _, first, merged = np.unique(np.round(coordinates / (1e-9 * size)), axis=0, return_index=True, return_inverse=True)
+    corners = merged.ravel()[triangles]
+    finder = Triangulation(*coordinates[first].T, corners).get_trifinder()
+    found = finder(*np.asarray(points, dtype=float).T)
+    return np.where(found >= 0, cell_of_triangle[found], -1)

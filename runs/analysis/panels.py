@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from analysis import spectrum
-from analysis.mesh import interfaces
+from analysis.drawing import colours_for, draw_cells
 from analysis.reading import OPEN, SLIP, STICK, UnreadableRun
 
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, BLACK = (
@@ -157,21 +157,9 @@ def edges_between(centres):
 def stress_field(axes, figure, fields):
     """σ_yy of the last frame, with the outlines of the inclusions."""
     stress = fields.read("stress")[:, 1] * 1e-6
-    low, high = np.percentile(stress, [1, 99])
-    if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):  # both signs matter: zero is white
-        colours, high = "RdBu_r", max(-low, high)
-        low = -high
-    else:
-        colours = "cividis"
-    x, y = fields.coordinates.T * 1e3
-    image = axes.tripcolor(x, y, fields.triangles, facecolors=stress[fields.cell_of_triangle], cmap=colours,
-                           vmin=low, vmax=high, rasterized=True)
-    outlines = interfaces(fields.coordinates, fields.triangles, fields.region[fields.cell_of_triangle])
-    axes.add_collection(LineCollection(outlines * 1e3, colors="black", linewidths=0.6))
+    image = draw_cells(axes, fields, stress, colours_for(stress), linewidth=0.6)
     figure.colorbar(image, ax=axes, label=r"$\sigma_{yy}$ [MPa]", extend="both", pad=0.02)
-    axes.set_aspect("equal")
-    axes.set(title=rf"(e) $\sigma_{{yy}}$ at {fields.time[-1] * MICRO:.1f} µs (compression < 0)",
-             xlabel="x [mm]", ylabel="y [mm]")
+    axes.set(title=rf"(e) $\sigma_{{yy}}$ at {fields.time[-1] * MICRO:.1f} µs (compression < 0)")
 
 
 def energy_ledger(axes, history):

@@ -7,15 +7,11 @@ Works on a run that is still going. Exits with code 2 and one sentence when ther
 
 import argparse
 import sys
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 
 from analysis import panels
+from analysis.drawing import plt, write_picture
 from analysis.panels import MICRO
 from analysis.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
@@ -92,21 +88,10 @@ def headline(folder, history, summary, boundary, window, dominant):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", help="output folder of a slide run")
-    parser.add_argument("picture", help="image to write; the ending chooses the format")
     parser.add_argument("--window", nargs=2, type=float, metavar=("BEGIN", "END"),
                         help="times [s] for means and spectra (default: the last three eighths of the run)")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portrait (default 0)")
-    options = parser.parse_args(arguments)
-    endings = plt.figure().canvas.get_supported_filetypes()
-    if Path(options.picture).suffix.lstrip(".") not in endings:
-        parser.error(f"{options.picture} should end in one of: {', '.join(endings)}")
-    plt.rcParams.update({"font.size": 11, "axes.titlesize": 11.5})
-    try:
-        draw(options.folder, options.window, options.point).savefig(options.picture, dpi=120)
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+    return write_picture(parser, lambda options: draw(options.folder, options.window, options.point), arguments)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The files of one `slide` run, as numpy arrays. A run that is still going, or was killed, can be read too.
+"""The files of a run, as numpy arrays. A run that is still going, or was killed, can be read too.
 
 Every array is cut to the rows that all datasets of its file have: the writer appends batch by batch, so a
 running job may have some datasets one batch ahead of others.
@@ -15,19 +15,20 @@ import h5py
 import numpy as np
 import yaml
 
-from analysis.mesh import triangles_of
+from analysis.mesh import interfaces, triangles_of
 
 OPEN, STICK, SLIP = 0, 1, 2  # the values of `status` in contact.h5
+SAME_TIME = 1e-3  # of the run: frames as near as this are at the same time, as steps of two runs do not coincide
 
 
 class UnreadableRun(Exception):
     """What is missing or wrong in an output folder, in one sentence."""
 
 
-def open_hdf5(path):
+def open_hdf5(path, program="slide"):
     """An open, read-only `h5py.File`. Raises UnreadableRun when there is none or it cannot be read."""
     if not path.is_file():
-        raise UnreadableRun(f"There is no {path.name} in {path.parent}: give the output folder of a `slide` run.")
+        raise UnreadableRun(f"There is no {path.name} in {path.parent}: give the output folder of a `{program}` run.")
     try:
         return h5py.File(path, "r")
     except OSError as error:
@@ -37,7 +38,7 @@ def open_hdf5(path):
 def read_dataset(file, name):
     """The dataset `name` of an open file. Raises UnreadableRun when it is not there."""
     if name not in file:
-        raise UnreadableRun(f"{file.filename} has no dataset {name}: it was not written by this version of `slide`.")
+        raise UnreadableRun(f"{file.filename} has no dataset {name}: it was not written, or not by this version.")
     return file[name][()]
 
 
@@ -83,6 +84,17 @@ class Point:
     u: np.ndarray
     v: np.ndarray
     stress: np.ndarray
+
+
+@dataclass
+class LocalPoint:
+    """A probe point of `relocalize`: region name, x [2] m, time [n] s, stress and homogeneous_stress [n, 3] Pa."""
+
+    region: str
+    x: np.ndarray
+    time: np.ndarray
+    stress: np.ndarray
+    homogeneous_stress: np.ndarray
 
 
 class History:
@@ -152,19 +164,41 @@ class ContactHistory:
         self._file.close()
 
 
-class Fields:
-    """fields.h5: displacement, velocity and stress on the mesh at the saved times. Also a context manager.
+class OnMesh:
+    """A file that holds a mesh and what lies on it. Also a context manager: it stays open.
 
-    coordinates [np, 2] m, region [nc], time [m] s; triangles [nt, 3] point numbers (a quadrilateral gives two)
-    and cell_of_triangle [nt]. `read(name, frame)` gives `u` [np, 3] m, `v` [np, 3] m/s or
-    `stress` [nc, 3] Pa (xx, yy, xy); frame -1 is the last.
+    path; coordinates [np, 2] m; region [nc] and region_names; triangles [nt, 3] point numbers (a quadrilateral gives
+    two) and cell_of_triangle [nt].
     """
 
-    def __init__(self, folder):
-        self._file = open_hdf5(Path(folder) / "fields.h5")
+    def __init__(self, path, program):
+        self.path = path
+        self._file = open_hdf5(path, program)
         self.coordinates = read_dataset(self._file, "mesh/coordinates")[:, :2]
         self.region = read_dataset(self._file, "mesh/region").ravel()
+        self.region_names = [name.decode() for name in self._file["mesh/region"].attrs.get("names", [])]
         self.triangles, self.cell_of_triangle = triangles_of(read_dataset(self._file, "mesh/cells"))
+
+    def outlines(self):
+        """Segments [ns, 2, 2] m between the regions."""
+        return interfaces(self.coordinates, self.triangles, self.region[self.cell_of_triangle])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._file.close()
+
+
+class Fields(OnMesh):
+    """fields.h5, or relocalized.h5 which is laid out alike: fields on the mesh at the saved times, time [m] s.
+
+    `read(name, frame)` gives `u` [np, 3] m, `v` [np, 3] m/s, `stress` [nc, 3] Pa or `strain` [nc, 3] (xx, yy, xy;
+    engineering shear), if it was saved; frame -1 is the last.
+    """
+
+    def __init__(self, folder, name="fields.h5", program="slide"):
+        super().__init__(Path(folder) / name, program)
         self._frames = sorted(self._file.get("frames", {}))
         self.time = read_dataset(self._file, "time")[:len(self._frames)]
         self._frames = self._frames[:len(self.time)]
@@ -174,11 +208,49 @@ class Fields:
     def read(self, name, frame=-1):
         return read_dataset(self._file, f"frames/{self._frames[frame]}/{name}")
 
-    def __enter__(self):
-        return self
+    def cell_history(self, name, cell):
+        """The values [m, 3] of one cell in all frames."""
+        return np.array([self._file[f"frames/{frame}/{name}"][cell] for frame in self._frames])
 
-    def __exit__(self, *_):
-        self._file.close()
+    def nearest(self, time):
+        """The frame nearest to a time in s; the last for None. Raises UnreadableRun when none is near."""
+        if time is None:
+            return len(self.time) - 1
+        frame = int(np.argmin(np.abs(self.time - time)))
+        if abs(self.time[frame] - time) > SAME_TIME * self.time[-1]:
+            raise UnreadableRun(f"{self._file.filename} has no frame at {time:g} s, the nearest is at "
+                                f"{self.time[frame]:g} s: choose that one.")
+        return frame
+
+    def local_points(self):
+        """The probe points of relocalized.h5, a list of LocalPoint."""
+        group = self._file.get("points", {})
+        return [LocalPoint(self._region_name(group[k]["region"][()]),
+                           *(read_dataset(self._file, f"points/{k}/{name}")
+                             for name in ("x", "time", "stress", "homogeneous_stress")))
+                for k in sorted(group, key=int)]
+
+    def _region_name(self, region):
+        if isinstance(region, bytes):
+            return region.decode()
+        region = int(np.ravel(region)[0])
+        return self.region_names[region] if region < len(self.region_names) else f"region {region}"
+
+
+class Statistics(OnMesh):
+    """statistics.h5, or relocalized_statistics.h5 which is laid out alike: statistics over `window`, a pair in s.
+
+    `read(name)` gives the `mean`, `deviation`, `lowest`, `highest`, `quantile_low` or `quantile_high` of the stress
+    [nc, 3] Pa (xx, yy, xy).
+    """
+
+    def __init__(self, folder, name="statistics.h5", program="slide"):
+        super().__init__(Path(folder) / name, program)
+        of = self._file["statistics"].attrs if "statistics" in self._file else {}
+        self.window = (float(of.get("from", np.nan)), float(of.get("to", np.nan)))
+
+    def read(self, name):
+        return read_dataset(self._file, f"statistics/stress/{name}")
 
 
 class Summary:

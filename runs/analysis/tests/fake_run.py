@@ -5,6 +5,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from analysis.mesh import centroids_and_areas, triangles_of
+
 FREQUENCY = 357e3  # Hz, of everything that oscillates
 FRICTION = 0.44  # mean T / mean N
 SPEED, SIDE, NORMAL = 2.0, 5e-3, 7.5e4  # m/s, m, N/m
@@ -85,6 +87,7 @@ def write_fields(folder, times, kind, divisions=60):
     with h5py.File(folder / "fields.h5", "w") as file:
         file["mesh/coordinates"] = np.column_stack([x, y])
         file["mesh/cells"], file["mesh/region"] = stream, region
+        file["mesh/region"].attrs["names"] = np.array([b"matrix", b"inclusion"])
         file["time"] = times
         for k in range(len(times)):
             file[f"frames/{k:05d}/u"] = file[f"frames/{k:05d}/v"] = nodal
@@ -101,3 +104,32 @@ def cells_of(boxes, kind):
     half = len(boxes) // 2
     cells = [*boxes[:half], *triangles[2 * half:]]
     return cells, np.concatenate([[{4: 5, 3: 4}[len(cell)], *cell] for cell in cells])
+
+
+def write_relocalized(folder, reference, factor, points=()):
+    """relocalized.h5 on the mesh of the run in `reference`, with its stress times `factor`.
+
+    `points` are pairs (cell, region) whose histories are recorded, the homogeneous stress half of the local one.
+    """
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    with h5py.File(reference / "fields.h5") as source, h5py.File(folder / "relocalized.h5", "w") as file:
+        source.copy("mesh", file)
+        source.copy("time", file)
+        for frame, group in source["frames"].items():
+            file[f"frames/{frame}/stress"] = factor * group["stress"][:]
+        centre, _ = centroids_and_areas(source["mesh/coordinates"][:], *triangles_of(source["mesh/cells"][:]))
+        for k, (cell, region) in enumerate(points):
+            local = np.array([factor * group["stress"][cell] for group in source["frames"].values()])
+            columns = {"x": centre[cell], "region": region, "time": source["time"][:], "stress": local,
+                       "homogeneous_stress": 0.5 * local}
+            for name, values in columns.items():
+                file[f"points/{k}/{name}"] = values
+
+
+def write_statistics(folder, name="statistics.h5", factor=1.0, window=(1e-4, 2e-4)):
+    """`mean`, the stress of the first frame of fields.h5 times `factor`, and `deviation`, a tenth of it."""
+    with h5py.File(folder / "fields.h5") as source, h5py.File(folder / name, "w") as file:
+        source.copy("mesh", file)
+        mean = factor * source["frames/00000/stress"][:]
+        file["statistics/stress/mean"], file["statistics/stress/deviation"] = mean, 0.1 * mean
+        file["statistics"].attrs.update({"from": window[0], "to": window[1], "samples": 100, "quantile": 0.99})

@@ -110,14 +110,6 @@ class CellPicture(unittest.TestCase):
                 file[f"cell/stress_{case}"][:] = 0
         self.assertEqual(self.run_main(), (0, ""))
 
-    def test_units_of_length(self):
-        write_cell(self.folder)
-        self.assertEqual(cell_picture.Cell(self.folder).length_unit(), (1e3, "mm"))
-        for size, unit in ((1.0, "m"), (2e-6, "µm"), (1e-10, "nm")):
-            cell = cell_picture.Cell(self.folder)
-            cell.coordinates = cell.coordinates * size / fake_run.SIDE
-            self.assertEqual(cell.length_unit()[1], unit)
-
     def test_stiffness_is_that_of_the_file(self):
         write_cell(self.folder)
         self.assertEqual(cell_picture.Cell(self.folder).stiffness.tolist(), SIX)

@@ -1,0 +1,112 @@
+"""Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
+
+import shutil
+from pathlib import Path
+
+from analysis.convergence import observed_order, orders_from_errors, richardson
+from analysis.table import markdown, read_csv, replace_between
+from analysis.work_precision import MEGA, Study, change, column, power_of
+
+GIGA = 1e-9
+MODULI = ("C11", "C12", "C66")
+
+
+def numbers(values, digits):
+    return ", ".join(f"{value:{digits}}" for value in values)
+
+
+def order_lines(study, reference):
+    for element in study.elements:
+        rows = study.over_size(element)
+        h = [1 / size for size in column(rows, "size")]
+        if len(h) < 3:
+            continue
+        orders = [f"{name} {numbers(orders_from_errors(h, column(rows, f'error_{name}')), '.2f')}" for name in MODULI]
+        blind = observed_order(h[-3:], column(rows, "C11")[-3:])
+        limit = richardson(h, column(rows, "C11"), order=2)
+        yield (f"{element}s: order between successive sizes {'; '.join(orders)}. From the three finest C11 alone, "
+               f"without the reference, {blind:.2f}; their Richardson limit for order 2 is "
+               f"{GIGA * limit.limit:.6f} GPa, {limit.limit / float(reference['C11']) - 1:.1e} from the reference, "
+               f"and its error bar {abs(limit.error) / limit.limit:.1e} where the error is "
+               f"{abs(rows[-1]['error_C11']):.1e}.")
+
+
+def cost_lines(study):
+    for element in study.elements:
+        rows = study.iterative(element)
+        if time := power_of(rows, "seconds"):
+            solver = [row["set_up_seconds"] + row["solve_seconds"] for row in rows]
+            memory = power_of(rows, "memory", study.least_memory())
+            yield (f"{element}s, multigrid, {rows[0]['unknowns']} to {rows[-1]['unknowns']} unknowns: time grows like "
+                   f"the size to the power {time.exponent:.2f}, memory above the program's own "
+                   f"{MEGA * study.least_memory():.0f} MB to the power {memory.exponent:.2f}. Iterations "
+                   f"{numbers(column(rows, 'iterations'), 'd')}. At the finest, set-up and three solves take "
+                   f"{solver[-1]:.2f} s of {rows[-1]['seconds']:.2f} s; the rest reads the mesh and writes the files.")
+        direct = study.over_size(element, "direct")
+        if rows and direct and direct[-1]["size"] == rows[-1]["size"]:
+            yield (f"{element}s, factorisation at {direct[-1]['unknowns']} unknowns: {direct[-1]['seconds']:.2f} s and "
+                   f"{MEGA * direct[-1]['memory']:.0f} MB, multigrid {rows[-1]['seconds']:.2f} s and "
+                   f"{MEGA * rows[-1]['memory']:.0f} MB.")
+
+
+def tolerance_lines(study):
+    rows = study.over_tolerance()
+    if len(rows) > 1:
+        found = [f"{row['rtol']:.0e}: {change(row, rows[-1]):.0e} in {row['seconds']:.2f} s" for row in rows[:-1]]
+        yield (f"Solver tolerance at {rows[-1]['size']} across, largest change of a modulus against "
+               f"{rows[-1]['rtol']:.0e} ({rows[-1]['seconds']:.2f} s): {'; '.join(found)}. "
+               f"The error of C11 from the mesh is {abs(rows[-1]['error_C11']):.1e}.")
+
+
+def orientation_lines(study, orientation):
+    for known in orientation:
+        good = [row for row in study.rows
+                if row["rtol"] == study.tightest and abs(row["error_C11"]) <= known["error"][-1]]
+        if good:
+            row = min(good, key=lambda row: row["seconds"])
+            yield (f"{known['name']}: {known['seconds'][-1]:g} s for an error of {known['error'][-1]:g}. Here "
+                   f"{row['seconds']:.2g} s for {abs(row['error_C11']):.1e} ({row['element']}s, {row['size']} across, "
+                   f"{row['method']}).")
+
+
+def failure_lines(rows):
+    for row in rows:
+        if row["status"] != "ok":
+            run = f"{row['element']}, {row['size']} across, {row['solver']} solver, tolerance {row['rtol']}"
+            yield f"Failed: {run}: {row['reason']}"
+
+
+def table(study):
+    header = ["element", "across", "solver", "tolerance", "unknowns", "iterations", "set-up [s]", "solves [s]",
+              "in all [s]", "memory [MB]", "C11, C12, C66 [GPa]", "relative errors"]
+    return markdown(header, [
+        [row["element"], row["size"], f"{row['solver']} ({row['method']})", f"{row['rtol']:.0e}", row["unknowns"],
+         row["iterations"], f"{row['set_up_seconds']:.3f}", f"{row['solve_seconds']:.3f}", f"{row['seconds']:.3f}",
+         f"{MEGA * row['memory']:.0f}", numbers([GIGA * row[name] for name in MODULI], ".6f"),
+         numbers([row[f"error_{name}"] for name in MODULI], ".1e")]
+        for row in sorted(study.rows, key=lambda row: (row["element"], row["solver"], row["size"], -row["rtol"]))])
+
+
+def report(rows, reference, orientation):
+    study = Study(rows)
+    lines = [*order_lines(study, reference), *cost_lines(study), *tolerance_lines(study),
+             *orientation_lines(study, orientation), *failure_lines(rows)]
+    return "\n" + "".join(f"- {line[0].upper()}{line[1:]}\n" for line in lines) + f"""
+<details>
+<summary>All runs</summary>
+
+{table(study)}
+</details>
+
+"""
+
+
+def main(job):
+    text = report(read_csv(job.input.table), job.params.reference, job.params.orientation)
+    if job.params.readme:
+        replace_between(Path(job.params.readme) / "README.md", "report", text)
+        shutil.copy(job.input.picture, Path(job.params.readme) / "picture.png")
+    Path(job.output[0]).write_text(text)
+
+
+main(snakemake)  # noqa: F821
