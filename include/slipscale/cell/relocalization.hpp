@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slipscale/cell/strain_recovery.hpp"
+#include "slipscale/cell/tiling.hpp"
+
+namespace slipscale {
+
+/// (xx, yy, xy): strain with engineering shear, or stress in Pa.
+using PlaneTensor = std::array<double, 3>;
+/// Of its components: (xx.xx, yy.yy, xy.xy, yy.xy, xx.xy, xx.yy).
+using PlaneCovariance = std::array<double, 6>;
+
+/// What `homogenize` finds of a microstructure.
+struct LocalisationTensors {
+  PlaneGrid grid;
+  std::vector<Eigen::Matrix3d> localisation;            ///< A of each cell, ε = A:E, [cells]
+  std::vector<Eigen::Matrix3d> stiffness;               ///< C of each region, Pa
+  Eigen::Matrix3d effective = Eigen::Matrix3d::Zero();  ///< C_eff, Pa
+  std::string boundary;                                 ///< periodic, kubc or subc
+};
+
+/// What belongs to one of the ranks: [begin, end) of 0 to `total`, one more for the first of them where the
+/// total does not divide.
+struct RankShare {
+  std::size_t begin = 0, end = 0;
+  std::size_t count() const { return end - begin; }
+};
+RankShare rank_share(std::size_t total, int rank, int ranks);
+
+/// Local strain ε = A:E and stress σ = C:A:E at fixed places from a homogeneous run's strain E, frame by
+/// frame: one 3×3 product for each place, no allocation. Each place is computed by itself, so that places may
+/// be shared out among ranks in any way: the same bits.
+///
+/// Spans hold one entry for each place, except where cells of the macro mesh are meant.
+class Relocalization {
+ public:
+  /// The tensors are copied, once for each micro cell and not for each place.
+  Relocalization(const LocalisationTensors& tensors, const PlaneGrid& macro, Recovery recovery,
+                 std::span<const Site> sites);
+
+  std::size_t places() const { return micro_cell_.size(); }
+
+  /// E at the places from E of the macro cells; likewise C_eff:E, the macroscopic stress.
+  void macroscopic(std::span<const PlaneTensor> macro_cells, std::span<PlaneTensor> at_places) {
+    recovery_(macro_cells, at_places);
+  }
+  /// The covariance of E; see `StrainRecovery`.
+  void macroscopic(std::span<const PlaneCovariance> macro_cells, std::span<PlaneCovariance> at_places) {
+    recovery_(macro_cells, at_places);
+  }
+
+  /// From E at the places; the same for means over time. In place (the same span twice) is allowed.
+  void strain(std::span<const PlaneTensor> macroscopic, std::span<PlaneTensor> local) const;
+  void stress(std::span<const PlaneTensor> macroscopic, std::span<PlaneTensor> local) const;
+
+  /// A cov Aᵀ and (C A) cov (C A)ᵀ, from the covariance of E at the places.
+  void strain_covariance(std::span<const PlaneCovariance> macroscopic,
+                         std::span<PlaneCovariance> local) const;
+  void stress_covariance(std::span<const PlaneCovariance> macroscopic,
+                         std::span<PlaneCovariance> local) const;
+
+ private:
+  StrainRecovery recovery_;
+  std::vector<int> micro_cell_;                                ///< [places]
+  std::vector<Eigen::Matrix3d> localisation_, concentration_;  ///< A and C:A (Pa), [micro cells]
+};
+
+/// √ of the variances, 0 where rounding makes one negative.
+PlaneTensor deviation(const PlaneCovariance& covariance);
+
+}  // namespace slipscale
