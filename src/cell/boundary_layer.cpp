@@ -1,223 +1,165 @@
 #include "slipscale/cell/boundary_layer.hpp"
 
-#include <petscksp.h>
-
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "slipscale/base/error.hpp"
-#include "slipscale/base/petsc.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/solid/element.hpp"
+#include "strip_system.hpp"
 
 namespace slipscale {
 namespace {
 
-using OwnedKSP = Owned<KSP, KSPDestroy>;
-using OwnedScatter = Owned<VecScatter, VecScatterDestroy>;
+Eigen::Map<const Eigen::Vector3d> vector(const PlaneTensor& tensor) {
+  return Eigen::Map<const Eigen::Vector3d>(tensor.data());
+}
+Eigen::Map<Eigen::Vector3d> vector(PlaneTensor& tensor) { return Eigen::Map<Eigen::Vector3d>(tensor.data()); }
 
-/// Numbers coordinates along one axis, those closer than `tolerance` alike.
-std::vector<int> levels(const PlaneGrid& grid, int axis, double tolerance) {
-  std::vector<int> order(grid.points.size()), level(grid.points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int point) { return grid.points[point][axis]; });
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const double step = grid.points[order[k]][axis] - grid.points[order[k - 1]][axis];
-    level[order[k]] = level[order[k - 1]] + (step > tolerance ? 1 : 0);
-  }
-  return level;
+std::vector<char> cells_below(const PlaneGrid& grid, double height) {
+  std::vector<char> below(static_cast<std::size_t>(grid.cells()));
+  for (int cell = 0; cell < grid.cells(); ++cell) below[cell] = centre(grid, cell)[1] < height;
+  return below;
 }
 
-/// Stress less the macroscopic one.
-Eigen::Vector3d excess(const PlaneTensor& stress, const PlaneTensor& macroscopic) {
-  return {stress[0] - macroscopic[0], stress[1] - macroscopic[1], stress[2] - macroscopic[2]};
-}
-
-void add(PlaneTensor& sum, const Eigen::Vector3d& part) {
-  for (int i = 0; i < 3; ++i) sum[i] += part[i];
+void refuse_depth(const PlaneGrid& grid, const std::vector<char>& inside, double depth) {
+  const auto cells = std::ranges::count(inside, 1);
+  if (cells == 0 || cells == grid.cells())
+    throw UserError(
+        format("-relocalize_strip of %g m holds %s of the mesh, which is %g m high; give the "
+               "strip a few diameters of the inclusions, and leave something above it",
+               depth, cells == 0 ? "no cell" : "all cells", bounding_box(grid).extent(1)));
 }
 
 }  // namespace
 
-std::vector<int> joined_points(const PlaneGrid& grid) {
-  const BoundingBox box = bounding_box(grid);
-  const double tolerance = 1e-10 * std::max(box.extent(0), box.extent(1));
-  const std::vector<int> x = levels(grid, 0, tolerance), y = levels(grid, 1, tolerance);
-  std::vector<int> order(grid.points.size()), first(grid.points.size()), joint(grid.points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int point) { return std::array{x[point], y[point], point}; };
-  std::ranges::sort(order, {}, place);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool same = k > 0 && x[order[k]] == x[order[k - 1]] && y[order[k]] == y[order[k - 1]];
-    first[order[k]] = same ? first[order[k - 1]] : order[k];
-  }
-  int count = 0;
-  for (std::size_t p = 0; p < joint.size(); ++p)
-    joint[p] = first[p] == static_cast<int>(p) ? count++ : joint[first[p]];
-  return joint;
-}
-
-struct BoundaryLayer::Strip {
+struct BoundaryLayer::Layer {
   MPI_Comm comm;
   const PlaneGrid& grid;
   std::vector<Eigen::Matrix3d> stiffness;
   RankShare mine;
-  std::vector<char> inside;       ///< [cells], of the strip
-  std::vector<PetscInt> unknown;  ///< [points] first of its two; −1 where w = 0 or beyond the strip
-  PetscInt count = 0;             ///< unknowns
-  OwnedMat matrix;
-  OwnedVec force, w, everywhere;  ///< `everywhere`: w whole on each rank
-  OwnedScatter scatter;
-  OwnedKSP ksp;
+  std::vector<char> inside, kept;  ///< [cells], of the strip and of its lower half
+  StripPoints points;
+  std::vector<char> closed;  ///< [contact nodes], of the system below
+  std::unique_ptr<StripSystem> system;
+  int factorisations = 0;
+  std::vector<PlaneTensor> sum;  ///< [share] stress with the corrector's, Pa
 
-  Strip(MPI_Comm on, const PlaneGrid& mesh, std::span<const Eigen::Matrix3d> c, RankShare share)
-      : comm(on), grid(mesh), stiffness(c.begin(), c.end()), mine(share) {}
-
-  void choose_cells(double depth) {
-    const BoundingBox box = bounding_box(grid);
-    inside.resize(static_cast<std::size_t>(grid.cells()));
-    for (int cell = 0; cell < grid.cells(); ++cell)
-      inside[cell] = centre(grid, cell)[1] < box.lower[1] + depth;
-    const auto cells = std::ranges::count(inside, 1);
-    if (cells == 0 || cells == grid.cells())
-      throw UserError(
-          format("-relocalize_strip of %g m holds %s of the mesh, which is %g m high; give the "
-                 "strip a few diameters of the inclusions, and leave something above it",
-                 depth, cells == 0 ? "no cell" : "all cells", box.extent(1)));
+  Layer(MPI_Comm on, const PlaneGrid& mesh, std::span<const Eigen::Matrix3d> c, RankShare share, double depth)
+      : comm(on),
+        grid(mesh),
+        stiffness(c.begin(), c.end()),
+        mine(share),
+        inside(cells_below(mesh, bounding_box(mesh).lower[1] + depth)),
+        kept(cells_below(mesh, bounding_box(mesh).lower[1] + 0.5 * depth)),
+        points(mesh, inside),
+        sum(share.count()) {
+    refuse_depth(mesh, inside, depth);
   }
 
-  /// Of the points of the strip, except those that it shares with the cells above it.
-  void number_unknowns() {
-    const std::vector<int> joint = joined_points(grid);
-    std::vector<char> below(grid.points.size(), 0), above(grid.points.size(), 0);  // by joint
-    for (int cell = 0; cell < grid.cells(); ++cell)
-      for (int k = grid.first[cell]; k < grid.first[cell + 1]; ++k)
-        (inside[cell] ? below : above)[joint[grid.corners[k]]] = 1;
-    std::vector<PetscInt> of_joint(grid.points.size(), -1);
-    unknown.assign(grid.points.size(), -1);
-    for (std::size_t point = 0; point < grid.points.size(); ++point) {
-      const int j = joint[point];
-      if (below[j] && !above[j] && of_joint[j] < 0) {
-        of_joint[j] = count;
-        count += 2;
-      }
-      unknown[point] = of_joint[j];
-    }
-  }
-
-  /// The unknowns of a cell, corner-wise (x, y); −1 is skipped by PETSc.
-  std::array<PetscInt, 8> rows(int cell) const {
-    std::array<PetscInt, 8> found{};
-    for (int k = 0; k < grid.corner_count(cell); ++k) {
-      const PetscInt first = unknown[grid.corners[grid.first[cell] + k]];
-      found[2 * k] = first;
-      found[2 * k + 1] = first < 0 ? -1 : first + 1;
-    }
-    return found;
-  }
-
-  /// Calls `visit(cell, place)` for this rank's cells of the strip, `place` counted in its share.
+  /// Calls `visit(cell, place)` for this rank's cells in `where`, `place` counted in its share.
   template <class Visit>
-  void for_cells(const Visit& visit) const {
+  void for_cells(const std::vector<char>& where, const Visit& visit) const {
     for (std::size_t cell = mine.begin; cell < mine.end; ++cell)
-      if (inside[cell]) visit(static_cast<int>(cell), cell - mine.begin);
+      if (where[cell]) visit(static_cast<int>(cell), cell - mine.begin);
   }
 
-  void assemble() {
-    petsc(MatCreate(comm, matrix.put()));
-    petsc(MatSetSizes(matrix, PETSC_DECIDE, PETSC_DECIDE, count, count));
-    petsc(MatSetType(matrix, MATAIJ));
-    constexpr PetscInt row = 60;  // a node and some thirty neighbours; more cost time, not the answer
-    petsc(MatSeqAIJSetPreallocation(matrix, row, nullptr));
-    petsc(MatMPIAIJSetPreallocation(matrix, row, nullptr, row, nullptr));
-    petsc(MatSetOption(matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
-    petsc(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-    for_cells([&](int cell, std::size_t) {
-      ElementStiffness k = element_stiffness(grid.corners_of(cell), stiffness[grid.region[cell]]);
-      const auto indices = rows(cell);
-      petsc(MatSetValues(matrix, static_cast<PetscInt>(k.rows()), indices.data(),
-                         static_cast<PetscInt>(k.cols()), indices.data(), k.data(), ADD_VALUES));
-    });
-    petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-    petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-  }
-
-  void factorise() {
-    petsc(MatCreateVecs(matrix, w.put(), force.put()));
-    petsc(VecSetOption(force, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
-    petsc(VecScatterCreateToAll(w, scatter.put(), everywhere.put()));
-    petsc(KSPCreate(comm, ksp.put()));
-    petsc(KSPSetOptionsPrefix(ksp, "relocalize_"));
-    petsc(KSPSetOperators(ksp, matrix, matrix));
-    petsc(KSPSetType(ksp, KSPPREONLY));
-    PC pc = nullptr;
-    petsc(KSPGetPC(ksp, &pc));
-    petsc(PCSetType(pc, PCCHOLESKY));
-    petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-    petsc(KSPSetFromOptions(ksp));
-    petsc(KSPSetUp(ksp));
-  }
-
-  /// force = −∫ ε(φ) : excess dA
-  void load(std::span<const PlaneTensor> macroscopic, std::span<const PlaneTensor> stress) {
-    petsc(VecSet(force, 0));
-    for_cells([&](int cell, std::size_t place) {
+  /// ∫ ε(φ):σ at the contact nodes: the force of the surface on each of them, N/m. Known on every rank.
+  std::vector<Vector2> contact_forces(std::span<const PlaneTensor> stress) const {
+    std::vector<Vector2> force(points.contact_count(), Vector2{});
+    for_cells(inside, [&](int cell, std::size_t place) {
+      if (!points.touches_contact(cell)) return;
       const StrainDisplacement b = centre_strain_displacement(grid.corners_of(cell));
       const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1> f =
-          -area(grid, cell) * b.transpose() * excess(stress[place], macroscopic[place]);
-      petsc(VecSetValues(force, static_cast<PetscInt>(f.size()), rows(cell).data(), f.data(), ADD_VALUES));
+          area(grid, cell) * b.transpose() * vector(stress[place]);
+      for (int k = 0; k < grid.corner_count(cell); ++k)
+        if (const int node = points.contact_node(cell, k); node >= 0)
+          force[node] = {force[node][0] + f[2 * k], force[node][1] + f[2 * k + 1]};
     });
-    petsc(VecAssemblyBegin(force));
-    petsc(VecAssemblyEnd(force));
+    MPI_Allreduce(MPI_IN_PLACE, force.data(), static_cast<int>(2 * force.size()), MPI_DOUBLE, MPI_SUM, comm);
+    return force;
   }
 
-  void solve() {
-    petsc(KSPSolve(ksp, force, w));
-    KSPConvergedReason reason;
-    petsc(KSPGetConvergedReason(ksp, &reason));
-    if (reason < 0)
-      throw UserError(std::string("the correction next to the contact did not converge (KSP ") +
-                      KSPConvergedReasons[reason] +
-                      "); leave the options -relocalize_ksp_ and -relocalize_pc_ out");
-    petsc(VecScatterBegin(scatter, w, everywhere, INSERT_VALUES, SCATTER_FORWARD));
-    petsc(VecScatterEnd(scatter, w, everywhere, INSERT_VALUES, SCATTER_FORWARD));
+  /// Closed is what is pressed: more than rounding of the largest force.
+  void hold(const std::vector<Vector2>& force) {
+    double largest = 0;
+    for (const Vector2& f : force) largest = std::max(largest, std::abs(f[1]));
+    std::vector<char> now(force.size());
+    std::ranges::transform(force, now.begin(), [&](const Vector2& f) { return f[1] > 1e-6 * largest; });
+    if (system && now == closed) return;
+    closed = now;
+    system = std::make_unique<StripSystem>(comm, grid, points, closed);
+    for_cells(inside, [&](int cell, std::size_t) {
+      system->add_cell(cell, element_stiffness(grid.corners_of(cell), stiffness[grid.region[cell]]));
+    });
+    system->factorise();
+    ++factorisations;
   }
 
-  void add_corrector(std::span<PlaneTensor> strain, std::span<PlaneTensor> stress) {
-    const PetscScalar* values = nullptr;
-    petsc(VecGetArrayRead(everywhere, &values));
-    for_cells([&](int cell, std::size_t place) {
-      const StrainDisplacement b = centre_strain_displacement(grid.corners_of(cell));
-      const auto indices = rows(cell);
-      Eigen::Vector3d e = Eigen::Vector3d::Zero();
-      for (Eigen::Index k = 0; k < b.cols(); ++k)
-        if (indices[k] >= 0) e += values[indices[k]] * b.col(k);
-      add(strain[place], e);
-      add(stress[place], stiffness[grid.region[cell]] * e);
-    });
-    petsc(VecRestoreArrayRead(everywhere, &values));
+  /// The strain that the corrector adds to a cell.
+  Eigen::Vector3d corrector(int cell) const {
+    return centre_strain_displacement(grid.corners_of(cell)) * system->displacement(cell);
+  }
+
+  /// Solves with the friction of the pressure that is found, until both agree.
+  void rub(std::span<const PlaneTensor> strain, std::span<const PlaneTensor> stress,
+           const std::vector<Vector2>& run_force) {
+    constexpr double tolerance = 1e-10;
+    constexpr int most = 200;
+    std::vector<double> added(run_force.size(), 0);  // tangential force beyond the run's, N/m
+    double change = 0;
+    for (int k = 0; k < most; ++k) {
+      system->clear_force();
+      for_cells(inside, [&](int cell, std::size_t place) {
+        const StrainDisplacement b = centre_strain_displacement(grid.corners_of(cell));
+        const Eigen::Vector3d excess =
+            stiffness[grid.region[cell]] * vector(strain[place]) - vector(stress[place]);
+        system->add_force(cell, -area(grid, cell) * b.transpose() * excess);
+      });
+      system->add_tangential(added);
+      system->solve();
+      for_cells(inside, [&](int cell, std::size_t place) {
+        vector(sum[place]) = stiffness[grid.region[cell]] * (vector(strain[place]) + corrector(cell));
+      });
+      const std::vector<Vector2> force = contact_forces(sum);
+      double size = 0;
+      change = 0;
+      for (std::size_t n = 0; n < force.size(); ++n) {
+        const double wanted =
+            closed[n] ? run_force[n][0] / run_force[n][1] * force[n][1] - run_force[n][0] : 0;
+        change += std::abs(wanted - added[n]);
+        size += std::abs(run_force[n][0]) + std::abs(run_force[n][1]);
+        added[n] = wanted;
+      }
+      if (change <= tolerance * size) return;
+    }
+    throw UserError(
+        "next to the contact, pressure and friction do not settle (-relocalize_correction strip); "
+        "leave the correction out");
   }
 };
 
 BoundaryLayer::BoundaryLayer(MPI_Comm comm, const PlaneGrid& grid, std::span<const Eigen::Matrix3d> stiffness,
                              RankShare mine, double depth)
-    : strip_(std::make_unique<Strip>(comm, grid, stiffness, mine)) {
-  strip_->choose_cells(depth);
-  strip_->number_unknowns();
-  strip_->assemble();
-  strip_->factorise();
-}
+    : layer_(std::make_unique<Layer>(comm, grid, stiffness, mine, depth)) {}
 
 BoundaryLayer::~BoundaryLayer() = default;
 
-void BoundaryLayer::correct(std::span<const PlaneTensor> macroscopic, std::span<PlaneTensor> strain,
+void BoundaryLayer::correct(std::span<const PlaneTensor> macroscopic_strain,
+                            std::span<const PlaneTensor> macroscopic_stress, std::span<PlaneTensor> strain,
                             std::span<PlaneTensor> stress) {
-  strip_->load(macroscopic, stress);
-  strip_->solve();
-  strip_->add_corrector(strain, stress);
+  Layer& layer = *layer_;
+  const std::vector<Vector2> run_force = layer.contact_forces(macroscopic_stress);
+  layer.hold(run_force);
+  layer.rub(macroscopic_strain, macroscopic_stress, run_force);
+  layer.for_cells(layer.kept, [&](int cell, std::size_t place) {
+    vector(strain[place]) = vector(macroscopic_strain[place]) + layer.corrector(cell);
+    stress[place] = layer.sum[place];
+  });
 }
 
-long BoundaryLayer::unknowns() const { return strip_->count; }
-long BoundaryLayer::cells() const { return static_cast<long>(std::ranges::count(strip_->inside, 1)); }
+long BoundaryLayer::unknowns() const { return layer_->system ? layer_->system->unknowns() : 0; }
+long BoundaryLayer::cells() const { return static_cast<long>(std::ranges::count(layer_->inside, 1)); }
+int BoundaryLayer::factorisations() const { return layer_->factorisations; }
 
 }  // namespace slipscale

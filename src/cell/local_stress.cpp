@@ -58,7 +58,7 @@ void LocalStress::update(std::span<const PlaneTensor> macro_strain) {
   for (std::size_t k = 0; k < macroscopic_.size(); ++k)
     Eigen::Map<Eigen::Vector3d>(homogeneous_[k].data()) =
         effective_ * Eigen::Map<const Eigen::Vector3d>(macroscopic_[k].data());
-  if (layer_) layer_->correct(homogeneous_, strain_, stress_);
+  if (layer_) layer_->correct(macroscopic_, homogeneous_, strain_, stress_);
 }
 
 LocalStress::Covariances LocalStress::covariances(std::span<const PlaneCovariance> macro_strain) {

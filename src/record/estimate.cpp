@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "mesh_group.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -21,9 +22,15 @@ double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
                     const FieldQuantities& quantities) {
   const double vector = 3 * sizeof(double);
   const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
-                       quantities.stress * vector * static_cast<double>(cells) + per_frame;
-  const double mesh = 2 * sizeof(double) * static_cast<double>(points) + 5 * 4 * static_cast<double>(cells);
-  return frames * frame + mesh + per_frame;
+                       (quantities.stress + quantities.strain) * vector * static_cast<double>(cells) +
+                       per_frame;
+  return frames * frame + mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) + per_frame;
+}
+
+double statistics_bytes(std::int64_t points, std::int64_t cells) {
+  const double tensors = 2 * (6 * 3 + 6) * sizeof(double);
+  return tensors * static_cast<double>(cells) +
+         mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) + 4 * per_frame;
 }
 
 std::string readable_bytes(double bytes) {

@@ -64,12 +64,21 @@ std::vector<PetscInt> FileOrder::to_file(const PetscInt* rows, int width) const 
   return reduce(rows, width, MPIU_INT);
 }
 
-std::vector<double> FileOrder::from_file(const double* slice, int width) const {
-  std::vector<double> rows(rows_ * width);
-  const RowType row(MPI_DOUBLE, width);
+template <class Number>
+std::vector<Number> FileOrder::broadcast(const Number* slice, int width, MPI_Datatype number) const {
+  std::vector<Number> rows(rows_ * width);
+  const RowType row(number, width);
   petsc(PetscSFBcastBegin(sf_, row, slice, rows.data(), MPI_REPLACE));
   petsc(PetscSFBcastEnd(sf_, row, slice, rows.data(), MPI_REPLACE));
   return rows;
+}
+
+std::vector<double> FileOrder::from_file(const double* slice, int width) const {
+  return broadcast(slice, width, MPI_DOUBLE);
+}
+
+std::vector<PetscInt> FileOrder::from_file(const PetscInt* slice, int width) const {
+  return broadcast(slice, width, MPIU_INT);
 }
 
 }  // namespace slipscale

@@ -21,11 +21,11 @@ Hdf5Type text_type(std::size_t length) {
   return type;
 }
 
-void write_text(hid_t object, const std::string& name, hid_t type, hid_t space, const char* text) {
+void write_value(hid_t object, const std::string& name, hid_t type, hid_t space, const void* value) {
   const std::string what = "cannot write the attribute '" + name + "'";
   Hdf5Attribute attribute(
       hdf5(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), what));
-  hdf5(H5Awrite(attribute, type, text), what);
+  hdf5(H5Awrite(attribute, type, value), what);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void write_attribute(hid_t object, const std::string& name, const std::string& v
   const Hdf5Type type = text_type(value.size());
   const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
   const std::string text = value.empty() ? std::string(1, '\0') : value;
-  write_text(object, name, type, scalar, text.data());
+  write_value(object, name, type, scalar, text.data());
 }
 
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values) {
@@ -64,7 +64,17 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   const Hdf5Type type = text_type(longest);
   const hsize_t count = values.size();
   const Hdf5Space list(hdf5(H5Screate_simple(1, &count, nullptr), "cannot make a data space"));
-  write_text(object, name, type, list, texts.data());
+  write_value(object, name, type, list, texts.data());
+}
+
+void write_attribute(hid_t object, const std::string& name, double value) {
+  const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
+  write_value(object, name, H5T_NATIVE_DOUBLE, scalar, &value);
+}
+
+void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
+  const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
+  write_value(object, name, H5T_NATIVE_INT64, scalar, &value);
 }
 
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description) {

@@ -55,13 +55,14 @@ std::string Recorder::forecast() const {
   double bytes = 0;
   if (history_) bytes += rows(history_every_) * static_cast<double>(history_->series().row_bytes());
   if (contact_) bytes += rows(contact_every_) * static_cast<double>(contact_->series().row_bytes());
-  const Mesh& mesh = body_.model().mesh;
-  if (fields_) bytes += fields_bytes(frames, mesh.nodes.total, mesh.cells.total, choice_.quantities);
+  if (fields_) bytes += fields_->bytes(frames);
+  if (statistics_) bytes += statistics_->bytes();
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
   return format("%ld steps to %s, about %s, memory %s, output %s in '%s'\n", last_,
                 engineering(static_cast<double>(last_) * time_.step, "s").c_str(),
                 readable_duration(seconds).c_str(), readable_bytes(memory_of_all_ranks(body_.comm())).c_str(),
-                readable_bytes(bytes).c_str(), folder_.path().c_str());
+                readable_bytes(bytes).c_str(), folder_.path().c_str()) +
+         (statistics_ ? statistics_->forecast(time_.step) : "");
 }
 
 void Recorder::write_run(const Options& options) const {
@@ -92,6 +93,7 @@ std::string Recorder::finish() {
   if (history_) history_->series().close();
   if (contact_) contact_->series().close();
   share_faults();
+  if (statistics_) statistics_->write(folder_.path());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string text;
   if (rank_of(body_.comm()) == 0)

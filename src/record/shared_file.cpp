@@ -3,12 +3,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 
 #include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 
 namespace slipscale {
 namespace {
+
+constexpr hsize_t series_chunk = 512;
 
 void write_rows(hid_t dataset, const DatasetSlice& slice, hid_t type, const void* rows,
                 const std::string& what) {
@@ -39,30 +43,38 @@ void write_together(MPI_Comm comm, const std::string& path, const std::function<
   throw_together(comm, fault);
 }
 
-SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes) : comm_(comm), path_(path) {
+DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row) {
+  shape_of_row.insert(shape_of_row.begin(), static_cast<hsize_t>(order.total()));
+  return {std::move(shape_of_row), static_cast<hsize_t>(order.begin()), static_cast<hsize_t>(order.count())};
+}
+
+hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32; }
+
+SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
+    : comm_(comm), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
   MPI_Comm_rank(comm, &rank_);
   write_together(comm_, path_, [&] {
     const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "preparing"));
     hdf5(H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL), "preparing");
     hdf5(H5Pset_coll_metadata_write(access, 1), "preparing");
-    file_ = Hdf5File(hdf5(H5Fcreate(partial().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "creating"));
+    file_ = Hdf5File(hdf5(H5Fcreate(name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "creating"));
   });
   try {
-    write_together(comm_, path_, [&] {
-      if (rank_ == 0) reserve_space(partial(), 0, static_cast<std::uint64_t>(bytes));
-    });
+    reserve(bytes);
   } catch (...) {  // there is no destructor to run for an object that is not made
-    (void)file_.close();
-    if (rank_ == 0) (void)std::remove(partial().c_str());
+    discard();
     throw;
   }
 }
 
 SharedFile::~SharedFile() {
-  if (finished_) return;
+  if (!finished_ && appearance_ == Appearance::whole) discard();
+}
+
+void SharedFile::discard() {
   (void)file_.close();
-  if (rank_ == 0) (void)std::remove(partial().c_str());
+  if (rank_ == 0) (void)std::remove(name().c_str());
 }
 
 void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slice, hid_t type,
@@ -75,6 +87,35 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
   });
 }
 
+void SharedFile::write(const DatasetDescription& about, const FileOrder& order,
+                       const std::vector<hsize_t>& shape_of_row, const double* rows) {
+  const auto width = std::accumulate(shape_of_row.begin(), shape_of_row.end(), 1, std::multiplies<>());
+  write(about, slice_of(order, shape_of_row), H5T_NATIVE_DOUBLE, order.to_file(rows, width).data());
+}
+
+void SharedFile::add_series(const DatasetDescription& about) {
+  write_together(comm_, path_, [&] {
+    const Hdf5Dataset series =
+        create_dataset(file_, about.path, H5T_IEEE_F64LE, {0}, {H5S_UNLIMITED}, {series_chunk});
+    describe_dataset(series, about.units, about.text);
+  });
+}
+
+void SharedFile::append(const std::string& series, double value) {
+  write_together(comm_, path_, [&] {
+    Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
+    hsize_t length = 0;
+    {
+      const Hdf5Space space(hdf5(H5Dget_space(dataset), series));
+      hdf5(H5Sget_simple_extent_dims(space, &length, nullptr), series);
+    }
+    const hsize_t longer = length + 1;
+    hdf5(H5Dset_extent(dataset, &longer), series);
+    write_rows(dataset, {{longer}, length, rank_ == 0 ? 1u : 0u}, H5T_NATIVE_DOUBLE, &value, series);
+    if (dataset.close() < 0) throw LibraryError(hdf5_message());
+  });
+}
+
 void SharedFile::link(const std::string& from, const std::string& to) {
   write_together(comm_, path_, [&] {
     const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), to));
@@ -83,15 +124,34 @@ void SharedFile::link(const std::string& from, const std::string& to) {
   });
 }
 
+void SharedFile::describe(const std::string& object, const std::function<void(hid_t object)>& attributes) {
+  write_together(comm_, path_, [&] {
+    const Hdf5Object opened(hdf5(H5Oopen(file_, object.c_str(), H5P_DEFAULT), object));
+    attributes(opened);
+  });
+}
+
+void SharedFile::reserve(double bytes) {
+  write_together(comm_, path_, [&] {
+    if (rank_ == 0)
+      reserve_space(name(), std::filesystem::file_size(name()), static_cast<std::uint64_t>(bytes));
+  });
+}
+
+void SharedFile::flush() {
+  write_together(comm_, path_, [&] { hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing"); });
+}
+
 void SharedFile::finish() {
   write_together(comm_, path_, [&] {
     if (file_.close() < 0) throw LibraryError(hdf5_message());
   });
-  write_together(comm_, path_, [&] {
-    std::error_code code;
-    if (rank_ == 0) std::filesystem::rename(partial(), path_, code);
-    if (code) throw LibraryError(code.message());
-  });
+  if (appearance_ == Appearance::whole)
+    write_together(comm_, path_, [&] {
+      std::error_code code;
+      if (rank_ == 0) std::filesystem::rename(name(), path_, code);
+      if (code) throw LibraryError(code.message());
+    });
   finished_ = true;
 }
 

@@ -1,14 +1,44 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "slipscale/record/fields_file.hpp"
+#include "mesh_group.hpp"
 
 namespace slipscale {
 
-/// The whole of fields.xdmf for the given frames. Every frame repeats the references to the mesh, which all
-/// readers take: ParaView's two and meshio's TimeSeriesReader.
-std::string xdmf_text(const XdmfLayout& layout, const std::vector<double>& times);
+/// A field that an XDMF file shows.
+struct XdmfAttribute {
+  enum class Centre { node, cell };
+  enum class Number { real, index };
+
+  std::string name;
+  Centre centre = Centre::cell;
+  std::string path;          ///< of its dataset; without leading '/': below that of each frame
+  std::vector<hsize_t> row;  ///< {} shows a scalar, {3} a vector, {3, 3} a tensor
+  Number number = Number::real;
+};
+
+/// What an XDMF file says of the HDF5 file that lies beside it.
+struct XdmfDocument {
+  std::string data_file, grid;
+  MeshLayout mesh;
+  std::vector<XdmfAttribute> attributes;
+  std::optional<std::vector<double>> times = {};  ///< s, of the frames; absent: the fields do not change
+};
+
+/// /mesh/region as a field.
+XdmfAttribute xdmf_region();
+
+/// Where the fields of a frame are: "/frames/00012/".
+std::string frame_path(std::size_t frame);
+
+/// The whole file. Every frame repeats the references to the mesh, which all readers take: ParaView's two and
+/// meshio's TimeSeriesReader.
+std::string xdmf_text(const XdmfDocument& document);
+
+/// Replaces the file as a whole; UserError on all ranks when it cannot be written. Collective.
+void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document);
 
 }  // namespace slipscale

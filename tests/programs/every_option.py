@@ -90,13 +90,17 @@ def strain_energy(stress, modulus):
 
 
 def quantities(run):
-    return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} & {"u", "v", "stress"})
+    return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} &
+               {"u", "v", "stress", "strain"})
 
 
 def frames(run):
     return len({name.split("/")[1] for name in run.fields if name.startswith("frames/")})
 
 
+SAMPLES = {"statistics_from": 1e-6, "statistics_to": 3e-6, "statistics_every": 5}  # steps 50, 55, ..., 150
+NO_WINDOW = "without -statistics_from"
+QUANTILE = lambda run: run.statistics["statistics/stress/quantile_high"].sum()
 M_X = lambda run: run.history["points/0/v"][0, 0]
 TOP_X = lambda run: run.history["points/1/u"][-1, 0]
 DRAG = mean("surface/tangential_force")
@@ -233,8 +237,21 @@ ROWS = {
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),
-    "fields_quantities": Row([Answer({"OPTION": "u,v"}, quantities, becomes(2), base={"fields_every": 50})],
+    "fields_box": Row([Answer({"OPTION": f"0,0,{SIDE / 2},{SIDE / 4}"}, lambda run: len(run.fields["mesh/region"]),
+                              becomes(8), base={"fields_every": 50})],
+                      [Idle({"OPTION": "0,0,1e-3,1e-3"}, "without -fields_every or -fields_times")]),
+    "fields_quantities": Row([Answer({"OPTION": "u,v"}, quantities, becomes(2), base={"fields_every": 50}),
+                              Answer({"OPTION": "u,v,stress,strain"}, quantities, becomes(4),
+                                     base={"fields_every": 50})],
                              [Idle({"OPTION": "u,v"}, "without -fields_every or -fields_times")]),
+    "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
+                            Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
+    "statistics_to": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES)],
+                         [Idle({"OPTION": 1e-6}, NO_WINDOW)]),
+    "statistics_every": Row([Answer({"OPTION": 10}, lambda run: run.samples, becomes(11), base=SAMPLES)],
+                            [Idle({"OPTION": 10}, NO_WINDOW)]),
+    "statistics_quantile": Row([Answer({"OPTION": 0.9}, QUANTILE, less, base=SAMPLES)],
+                               [Idle({"OPTION": 0.9}, NO_WINDOW)]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/summary.yaml" in run.files), more)],
                          ALWAYS),
     # For people in front of a terminal: test_progress_is_for_terminals.

@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import yaml
 from every_option import COULOMB, DENSITY, FOUR_TIMES, FRICTIONLESS, ROWS, SCENE
-from running import SLIDE, InScratch, arguments_of, datasets, yaml_of
+from running import SLIDE, InScratch, arguments_of, datasets, h5py, yaml_of
 from scenes import block
 
 RANKS_OF_REFUSALS = 2
@@ -30,8 +30,12 @@ class Run:
 
     def __init__(self, folder, outcome):
         out = folder / "out"
-        self.history, self.contact, self.fields = (
-            datasets(out / file) if (out / file).exists() else {} for file in ("history.h5", "contact.h5", "fields.h5"))
+        self.history, self.contact, self.fields, self.statistics = (
+            datasets(out / file) if (out / file).exists() else {}
+            for file in ("history.h5", "contact.h5", "fields.h5", "statistics.h5"))
+        if self.statistics:
+            with h5py.File(out / "statistics.h5") as file:
+                self.samples = file["statistics"].attrs["samples"]
         self.facts = yaml.safe_load((out / "run.yaml").read_text())["run"] if (out / "run.yaml").exists() else {}
         self.summary = yaml.safe_load((out / "summary.yaml").read_text()) if (out / "summary.yaml").exists() else {}
         self.files = {str(path.relative_to(out)) for path in out.rglob("*")}

@@ -210,7 +210,8 @@ TEST(FieldsFile, AFolderThatIsNotThereStopsAllRanks) {
 
 TEST(FieldQuantities, AreReadFromAList) {
   const auto some = field_quantities("stress,u");
-  EXPECT_TRUE(some.u && some.stress && !some.v);
-  EXPECT_NE(failure_of([] { field_quantities("u,strain"); }).find("-fields_quantities has 'strain'"),
+  EXPECT_TRUE(some.u && some.stress && !some.v && !some.strain);
+  EXPECT_TRUE(field_quantities("strain").strain && !field_quantities("strain").stress);
+  EXPECT_NE(failure_of([] { field_quantities("u,power"); }).find("-fields_quantities has 'power'"),
             std::string::npos);
 }

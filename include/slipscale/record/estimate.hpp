@@ -16,6 +16,9 @@ double series_bytes(double rows, double row_bytes, int datasets);
 double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
                     const FieldQuantities& quantities);
 
+/// statistics.h5.
+double statistics_bytes(std::int64_t points, std::int64_t cells);
+
 /// "1.25 GB": decimal prefixes, as disks are sold and `df -H` counts.
 std::string readable_bytes(double bytes);
 

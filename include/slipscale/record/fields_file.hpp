@@ -1,74 +1,66 @@
 #pragma once
 
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "slipscale/mesh/mesh.hpp"
-#include "slipscale/record/file_order.hpp"
-#include "slipscale/record/hdf5.hpp"
 #include "slipscale/record/mesh_image.hpp"
 
 namespace slipscale {
 
+class SharedFile;
+struct XdmfDocument;
+struct DatasetDescription;
+
 /// What fields.h5 holds at each saved time.
 struct FieldQuantities {
-  bool u = true, v = true, stress = true;
+  bool u = true, v = true, stress = true, strain = false;
 };
 
-/// Reads "u,v,stress" or a part of it, in any order. Throws `UserError` naming `option` on anything else.
+/// Reads "u,v,stress,strain" or a part of it, in any order. Throws `UserError` naming `option` on anything
+/// else.
 FieldQuantities field_quantities(const std::string& list, const std::string& option = "fields_quantities");
-
-/// What fields.xdmf says about fields.h5, which lies beside it.
-struct XdmfLayout {
-  std::string data_file;
-  MeshImage::Topology topology = MeshImage::Topology::triangles;
-  PetscInt points = 0, cells = 0;
-  hsize_t stream_length = 0;  ///< mixed: entries of /mesh/cells
-  FieldQuantities quantities;
-};
 
 /// fields.h5 and fields.xdmf: the mesh and the fields on it at the saved times; opens in ParaView as it is.
 ///
-/// The order is that of the whole mesh: the same data on any number of ranks. Each frame is on the disk
-/// before `write` returns, and fields.xdmf, replaced as a whole, never names one that is not. All members are
-/// collective; a failure on one rank, a full disk say, throws `UserError` on all.
+/// /mesh/coordinates [points, 2] m, /mesh/cells, /mesh/region [cells]; /time [frames] s; /frames/00000/u, v
+/// [points, 3] m and m/s, stress [cells, 3] Pa, strain [cells, 3] with engineering shear. Of an
+/// image with a box only that part. In the order of the whole mesh: the same data on any
+/// number of ranks.
+///
+/// Each frame is on the disk before `write` returns, and the XDMF file, replaced as a whole, never names one
+/// that is not. All members are collective; a failure on one rank, a full disk say, throws `UserError` on
+/// all.
 class FieldsFile {
  public:
-  /// Writes the mesh. `folder` must exist; older files of these names are overwritten.
+  /// Writes the mesh. `folder` must exist; older files of these names, `name`.h5 and .xdmf, are overwritten.
+  FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
+             const std::string& name = "fields");
+  /// Of the whole mesh, without a box.
   FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folder, FieldQuantities quantities);
+  ~FieldsFile();
 
-  /// Adds a frame. u and v [owned nodes (ghosts may follow), 2] m and m/s, stress [local cells, 3] Pa as
-  /// (xx, yy, xy); what is not among the quantities may be null.
-  void write(double time, const double* u, const double* v, const double* stress);
+  /// Adds a frame. u and v [owned nodes (ghosts may follow), 2] m and m/s, stress and strain [local cells, 3]
+  /// Pa and 1 as (xx, yy, xy); what is not among the quantities may be null.
+  void write(double time, const double* u, const double* v, const double* stress,
+             const double* strain = nullptr);
+
+  /// Predicted size after `frames` frames.
+  double bytes(double frames) const;
 
   /// Closes the file, so that a failure to write its last bytes is not lost.
   void close();
 
  private:
-  struct Description {
-    std::string path, units, text;
-  };
-  std::string path() const;
-  XdmfLayout layout() const;
-  void reserve(double bytes);
-  void write_mesh(const Mesh& mesh);
-  void write_nodal(const Description& about, const double* values);
-  void write_stress(const Description& about, const double* stress);
-  void append_time(double time);
-  void write_slice(const Description& about, const FileOrder& order, hsize_t width, hid_t type,
-                   const void* slice);
-  void write_slice(const Description& about, const std::vector<hsize_t>& shape, hsize_t begin, hsize_t count,
-                   hid_t type, const void* slice);
+  void write_nodal(const DatasetDescription& about, const double* values);
+  void write_on_cells(const DatasetDescription& about, const double* values);
 
   MPI_Comm comm_;
-  int rank_ = 0;
-  std::string folder_;
-  FieldQuantities quantities_;
-  MeshImage image_;
-  hsize_t stream_length_ = 0;
-  Hdf5File file_;
-  Hdf5Dataset time_;
-  std::vector<double> times_;
+  const FieldQuantities quantities_;
+  const MeshImage image_;
+  std::unique_ptr<SharedFile> file_;
+  std::string xdmf_path_;
+  std::unique_ptr<XdmfDocument> xdmf_;
 };
 
 }  // namespace slipscale

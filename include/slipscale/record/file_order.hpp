@@ -28,10 +28,13 @@ class FileOrder {
 
   /// This rank's rows [rows, width], from the slices [count, width] of all ranks.
   std::vector<double> from_file(const double* slice, int width) const;
+  std::vector<PetscInt> from_file(const PetscInt* slice, int width) const;
 
  private:
   template <class Number>
   std::vector<Number> reduce(const Number* rows, int width, MPI_Datatype number) const;
+  template <class Number>
+  std::vector<Number> broadcast(const Number* slice, int width, MPI_Datatype number) const;
 
   OwnedSF sf_;
   PetscInt total_ = 0, begin_ = 0, count_ = 0;

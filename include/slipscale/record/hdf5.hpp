@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ using Hdf5Dataset = Hdf5Handle<H5Dclose>;
 using Hdf5Space = Hdf5Handle<H5Sclose>;
 using Hdf5Type = Hdf5Handle<H5Tclose>;
 using Hdf5Properties = Hdf5Handle<H5Pclose>;
+using Hdf5Object = Hdf5Handle<H5Oclose>;
 using Hdf5Attribute = Hdf5Handle<H5Aclose>;
 
 /// Stops HDF5 from printing its error stack; `hdf5` reports instead. Cheap, may be repeated.
@@ -54,6 +56,9 @@ std::string hdf5_message();
 void write_attribute(hid_t object, const std::string& name, const std::string& value);
 /// Likewise a list of texts, one-dimensional.
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values);
+/// Likewise a number.
+void write_attribute(hid_t object, const std::string& name, double value);
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 
 /// The two attributes that every dataset carries: SI unit ("1" for a ratio) and one line for people.
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description);

@@ -1,0 +1,123 @@
+#include "slipscale/record/record_choice.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/contact/surface.hpp"
+
+namespace slipscale {
+namespace {
+
+const Range at_least_half{">= 0.5 and <= 1", [](double x) { return x >= 0.5 && x <= 1; }};
+
+/// A number of steps, or nothing for `auto`.
+std::optional<long> steps_or_auto(const Options& options, const std::string& name) {
+  const std::string text = options.text(name);
+  if (text == "auto") return std::nullopt;
+  const double steps = std::strtod(text.c_str(), nullptr);
+  if (steps != std::floor(steps) || steps > 1e15)
+    throw UserError(format("-%s is %g, but it must be auto or a whole number of steps", name.c_str(), steps));
+  return static_cast<long>(steps);
+}
+
+std::vector<Vector2> read_points(const Options& options) {
+  const auto numbers = options.reals("history_points");
+  if (numbers.size() % 2 != 0)
+    throw UserError("-history_points has an odd count of numbers; give x1,y1,x2,y2,... in m");
+  std::vector<Vector2> points;
+  for (std::size_t k = 0; k < numbers.size(); k += 2) points.push_back({numbers[k], numbers[k + 1]});
+  return points;
+}
+
+std::optional<BoundingBox> read_box(const Options& options) {
+  const auto numbers = options.reals("fields_box");
+  if (numbers.empty()) return std::nullopt;
+  if (numbers.size() != 4)
+    throw UserError(
+        format("-fields_box has %zu numbers; give two corners, x1,y1,x2,y2 in m", numbers.size()));
+  const BoundingBox box{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+  for (int d = 0; d < 2; ++d)
+    if (!(box.lower[d] < box.upper[d]))
+      throw UserError(format("-fields_box goes from %c = %g to %g m; give the lower left corner first",
+                             "xy"[d], box.lower[d], box.upper[d]));
+  return box;
+}
+
+void read_fields(const Options& options, RecordChoice& choice) {
+  options.refuse_both("fields_every", "fields_times");
+  if (const auto every = options.find_integer("fields_every"))
+    choice.fields_every = static_cast<long>(*every);
+  choice.fields_times = options.reals("fields_times");
+  if (choice.fields_every || !choice.fields_times.empty()) {
+    choice.quantities = field_quantities(options.text("fields_quantities"));
+    choice.fields_box = read_box(options);
+  } else {
+    options.refuse_idle({"fields_quantities", "fields_box"},
+                        {"without -fields_every or -fields_times", "give one of them"});
+  }
+}
+
+std::optional<StatisticsChoice> read_statistics(const Options& options) {
+  const auto from = options.find_real("statistics_from");
+  if (!from) {
+    options.refuse_idle({"statistics_to", "statistics_every", "statistics_quantile"},
+                        {"without -statistics_from", "give the start of the window"});
+    return std::nullopt;
+  }
+  return StatisticsChoice{*from, options.find_real("statistics_to"),
+                          steps_or_auto(options, "statistics_every"), options.real("statistics_quantile")};
+}
+
+}  // namespace
+
+Schema record_schema() {
+  return {
+      {"output_folder", Kind::text, "", "out", range::any,
+       "folder of the run; an older run in it is replaced"},
+      {"history_every", Kind::integer, "1", "10", range::at_least_one,
+       "steps between the rows of history.h5"},
+      {"history_points", Kind::reals, "m", absent, range::any,
+       "points x1,y1,x2,y2,... whose u, v and stress are followed"},
+      {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
+       "steps between the rows of contact.h5; auto makes about a thousand rows"},
+      {"fields_every", Kind::integer, "1", absent, range::at_least_one,
+       "steps between the frames of fields.h5"},
+      {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
+      {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
+       "what a frame holds: some of u,v,stress,strain"},
+      {"fields_box", Kind::reals, "m", absent, range::any,
+       "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
+      {"statistics_from", Kind::real, "s", absent, range::non_negative,
+       "start of the window over which statistics.h5 takes means, extremes and quantiles of stress and "
+       "strain"},
+      {"statistics_to", Kind::real, "s", absent, range::non_negative,
+       "end of that window; the end of the run when not given"},
+      {"statistics_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
+       "samples are the multiples of this step in the window; auto takes about a thousand"},
+      {"statistics_quantile", Kind::real, "1", "0.99", at_least_half,
+       "part of the samples that lies below quantile_high, and above quantile_low"},
+      {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
+       "auto shows a line of progress when the output is a terminal"},
+      {"run_<entry>", Kind::text, "", absent, range::any,
+       "facts that run.yaml carries; ignored when it is read again"},
+  };
+}
+
+RecordChoice read_record(const Options& options) {
+  RecordChoice choice;
+  choice.folder = options.text("output_folder");
+  choice.history_every = static_cast<long>(options.integer("history_every"));
+  choice.points = read_points(options);
+  if (has_surface(options))
+    choice.contact_every = steps_or_auto(options, "contact_every");
+  else
+    options.refuse_idle({"contact_every"}, without_surface);
+  read_fields(options, choice);
+  choice.statistics = read_statistics(options);
+  choice.progress = options.text("progress");
+  return choice;
+}
+
+}  // namespace slipscale

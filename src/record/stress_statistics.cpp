@@ -1,0 +1,93 @@
+#include "slipscale/record/stress_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/record/estimate.hpp"
+#include "slipscale/record/statistics_file.hpp"
+
+namespace slipscale {
+namespace {
+
+long step_at(const std::string& option, double t, const TimeStep& time) {
+  const double n = std::round(t / time.step);
+  if (!(n >= 0 && n <= static_cast<double>(time.count)))
+    throw UserError(format("-%s: %g s lies outside the run, which goes from 0 to %g s; move the window",
+                           option.c_str(), t, static_cast<double>(time.count) * time.step));
+  return static_cast<long>(n);
+}
+
+std::vector<int> owned_cells(const Cells& cells) {
+  std::vector<int> owned;
+  for (int cell = 0; cell < cells.size(); ++cell)
+    if (cells.owned[cell]) owned.push_back(cell);
+  return owned;
+}
+
+}  // namespace
+
+std::size_t StatisticsWindow::samples() const {
+  const long none = first > 0 ? (first - 1) / every + 1 : 0;  // multiples before the window
+  return static_cast<std::size_t>(last / every + 1 - none);
+}
+
+StatisticsWindow statistics_window(const StatisticsChoice& choice, const TimeStep& time) {
+  constexpr long samples = 1000;
+  StatisticsWindow window;
+  window.first = step_at("statistics_from", choice.from, time);
+  window.last = choice.to ? step_at("statistics_to", *choice.to, time) : time.count;
+  if (window.first > window.last)
+    throw UserError(format("-statistics_to: %g s lies before -statistics_from %g s; turn the window round",
+                           choice.to.value_or(0), choice.from));
+  window.every = choice.every ? *choice.every : std::max(1L, (window.last - window.first) / samples);
+  if (window.samples() == 0)
+    throw UserError(
+        format("-statistics_every %ld: no multiple of it lies among the steps %ld to %ld of the window; give "
+               "a smaller one",
+               window.every, window.first, window.last));
+  return window;
+}
+
+StressStatistics::StressStatistics(MPI_Comm comm, const Mesh& mesh, const StatisticsWindow& window,
+                                   double quantile)
+    : comm_(comm),
+      mesh_(mesh),
+      window_(window),
+      quantile_(quantile),
+      owned_(owned_cells(mesh.cells)),
+      stress_(owned_.size(), window.samples(), quantile),
+      strain_(owned_.size(), window.samples(), quantile) {}
+
+void StressStatistics::add(double time, const std::vector<std::array<double, 3>>& stress,
+                           const std::vector<std::array<double, 3>>& strain) {
+  if (samples() == 0) from_ = time;
+  to_ = time;
+  const auto add_to = [&](RunningStatistics& statistics, const std::vector<std::array<double, 3>>& values) {
+    rows_.clear();
+    for (const int cell : owned_) rows_.insert(rows_.end(), values[cell].begin(), values[cell].end());
+    statistics.add(rows_.data());
+  };
+  add_to(stress_, stress);
+  add_to(strain_, strain);
+}
+
+void StressStatistics::write(const std::string& folder) const {
+  if (samples() == 0) return;
+  write_statistics(comm_, MeshImage(comm_, mesh_), {from_, to_, samples(), quantile_}, stress_.result(),
+                   strain_.result(), folder);
+}
+
+std::string StressStatistics::forecast(double time_step) const {
+  const long every = window_.every, first = (window_.first + every - 1) / every * every;
+  const auto time = [&](long n) { return engineering(static_cast<double>(n) * time_step, "s"); };
+  const double memory = 2 * RunningStatistics::bytes(window_.samples(), quantile_);
+  return format("statistics of %zu samples from %s to %s take %s of that memory\n", window_.samples(),
+                time(first).c_str(), time(window_.last / every * every).c_str(),
+                readable_bytes(memory * static_cast<double>(mesh_.cells.total)).c_str());
+}
+
+double StressStatistics::bytes() const { return statistics_bytes(mesh_.nodes.total, mesh_.cells.total); }
+
+}  // namespace slipscale

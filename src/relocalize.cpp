@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/log.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/base/program.hpp"
+#include "slipscale/cell/local_stress.hpp"
+#include "slipscale/record/comparison_report.hpp"
+#include "slipscale/record/fields_reader.hpp"
+#include "slipscale/record/local_histories.hpp"
+#include "slipscale/record/localization_reader.hpp"
+#include "slipscale/record/output_folder.hpp"
+#include "slipscale/record/progress.hpp"
+#include "slipscale/record/relocalization_choice.hpp"
+#include "slipscale/record/relocalization_report.hpp"
+#include "slipscale/record/relocalized_file.hpp"
+#include "slipscale/record/relocalized_statistics.hpp"
+#include "slipscale/record/stress_comparison.hpp"
+
+using namespace slipscale;
+
+namespace {
+
+RankShare share_of(MPI_Comm comm, const Targets& targets) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  return rank_share(static_cast<std::size_t>(targets.grid.cells()), rank, ranks);
+}
+
+void relocalize(Options& options) {
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  const RelocalizationChoice choice = read_relocalization(options);
+  options.refuse_unread();
+  for (const std::string& note : options.notes()) print(note + "\n");
+
+  // Both scales, and where their meshes meet.
+  const FieldsReader run(comm, choice.run);
+  run.require("strain");
+  const LocalisationTensors tensors = read_localization(comm, choice.tensors);
+  std::optional<FieldsReader> reference;
+  if (choice.reference) reference.emplace(comm, choice.reference->folder, "relocalize_reference");
+  const TwoScales scales(
+      run.grid(), tensors.grid,
+      tiling(tensors.grid, tensors.boundary == "periodic", bounding_box(run.grid()), choice.origin));
+  const Targets targets = reference ? scales.cells_of(reference->grid()) : scales.tiles();
+  const RankShare mine = share_of(comm, targets);
+  LocalStress local(comm, tensors, run.grid(), choice.recovery, targets, mine, choice.strip);
+  LocalHistories histories(comm, targets, mine, choice.points);
+  std::optional<StressComparison> comparison;
+  if (reference) comparison.emplace(comm, *reference, targets, mine, run.times(), *choice.reference);
+  options.refuse_unknown();
+  print(describe(run, tensors, targets, local));
+
+  const OutputFolder folder(comm, choice.folder,
+                            {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",
+                             "relocalized_statistics.xdmf", "comparison.yaml"});
+  RelocalizedFile file(comm, targets.grid, mine, folder.path());
+  std::vector<PlaneTensor> macro_strain(static_cast<std::size_t>(run.grid().cells()));
+  Progress progress(choice.progress, 0, static_cast<double>(run.times().size()));
+  for (std::size_t frame = 0; frame < run.times().size(); ++frame) {
+    const double time = run.times()[frame];
+    run.read(frame, "strain", macro_strain);
+    local.update(macro_strain);
+    file.write(time, local.stress(), local.strain(), local.homogeneous_stress());
+    const auto* expected = comparison ? comparison->reference_stress(frame) : nullptr;
+    if (expected) comparison->add_frame(local);
+    histories.add(time, local, expected);
+    progress.step(static_cast<std::int64_t>(frame), static_cast<double>(frame + 1));
+  }
+  progress.finish();
+  file.close(histories.all());
+
+  if (has_statistics(comm, choice.run)) {
+    const StatisticsReader statistics(comm, choice.run);
+    write_relocalized_statistics(comm, statistics, targets.grid, mine, local, folder.path());
+    if (comparison && has_statistics(comm, choice.reference->folder))
+      comparison->add_statistics(StatisticsReader(comm, choice.reference->folder, "relocalize_reference"),
+                                 statistics, local);
+  }
+  if (comparison) {
+    Comparison found = comparison->finish();
+    found.probes = histories.agreements(targets.grid.regions);
+    folder.write_text("comparison.yaml", comparison_yaml(found));
+    print("\n" + describe(found));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program(
+      argc, argv,
+      {"relocalize",
+       "Stress and strain of the phases over time, C : A : E, from a homogeneous run of slide and the "
+       "localisation tensors of homogenize; compared with a heterogeneous run where there is one.",
+       relocalization_schema(), relocalize});
+}
