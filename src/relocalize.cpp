@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -30,6 +31,24 @@ RankShare share_of(MPI_Comm comm, const Targets& targets) {
   return rank_share(static_cast<std::size_t>(targets.grid.cells()), rank, ranks);
 }
 
+/// A strip has to end at the contact, and there in a straight edge: not so where frames leave the contact out
+/// (-fields_box) or tiles overhang.
+void refuse_strip_off_contact(const FieldsReader& run, const Targets& targets) {
+  const double contact = run.block().lower[1], lowest = bounding_box(targets.grid).lower[1];
+  if (std::abs(lowest - contact) > 1e-6 * run.block().extent(1))
+    throw UserError(
+        format("-relocalize_correction strip: the stress is relocalised from y = %g m on, and the contact is "
+               "at y = %g m; let an edge of the microstructure and of -fields_box lie on the contact",
+               lowest, contact));
+}
+
+/// Of a run that took them. Throws UserError when they are damaged.
+std::optional<StatisticsReader> statistics_of(MPI_Comm comm, const std::string& folder,
+                                              const std::string& option) {
+  if (!has_statistics(comm, folder)) return std::nullopt;
+  return std::optional<StatisticsReader>(std::in_place, comm, folder, option);
+}
+
 void relocalize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const RelocalizationChoice choice = read_relocalization(options);
@@ -42,15 +61,22 @@ void relocalize(Options& options) {
   const LocalisationTensors tensors = read_localization(comm, choice.tensors);
   std::optional<FieldsReader> reference;
   if (choice.reference) reference.emplace(comm, choice.reference->folder, "relocalize_reference");
-  const TwoScales scales(
-      run.grid(), tensors.grid,
-      tiling(tensors.grid, tensors.boundary == "periodic", bounding_box(run.grid()), choice.origin));
+  const TwoScales scales(run.grid(), tensors.grid,
+                         tiling(tensors.grid, tensors.boundary == "periodic", run.block(), choice.origin));
   const Targets targets = reference ? scales.cells_of(reference->grid()) : scales.tiles();
   const RankShare mine = share_of(comm, targets);
+  if (choice.strip) refuse_strip_off_contact(run, targets);
   LocalStress local(comm, tensors, run.grid(), choice.recovery, targets, mine, choice.strip);
   LocalHistories histories(comm, targets, mine, choice.points);
   std::optional<StressComparison> comparison;
   if (reference) comparison.emplace(comm, *reference, targets, mine, run.times(), *choice.reference);
+  const auto statistics = statistics_of(comm, choice.run, "relocalize_run");
+  const auto expected_statistics = statistics && reference
+                                       ? statistics_of(comm, choice.reference->folder, "relocalize_reference")
+                                       : std::optional<StatisticsReader>();
+  std::optional<StrainStatistics> mean_strain;
+  if (statistics) mean_strain = strain_statistics(*statistics, run.grid());
+  if (expected_statistics) StressComparison::refuse_other_window(*expected_statistics, *statistics);
   options.refuse_unknown();
   print(describe(run, tensors, targets, local));
 
@@ -73,13 +99,9 @@ void relocalize(Options& options) {
   progress.finish();
   file.close(histories.all());
 
-  if (has_statistics(comm, choice.run)) {
-    const StatisticsReader statistics(comm, choice.run);
-    write_relocalized_statistics(comm, statistics, targets.grid, mine, local, folder.path());
-    if (comparison && has_statistics(comm, choice.reference->folder))
-      comparison->add_statistics(StatisticsReader(comm, choice.reference->folder, "relocalize_reference"),
-                                 statistics, local);
-  }
+  if (statistics)
+    write_relocalized_statistics(comm, *statistics, *mean_strain, targets.grid, mine, local, folder.path());
+  if (expected_statistics) comparison->add_statistics(*expected_statistics, *mean_strain, local);
   if (comparison) {
     Comparison found = comparison->finish();
     found.probes = histories.agreements(targets.grid.regions);

@@ -41,7 +41,7 @@ void slide(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   auto set_up = std::make_unique<LogStage>("Set-up");
 
-  const Mesh mesh = read_mesh(comm, mesh_source(options));
+  const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
   know_names(options, mesh);
   const auto materials = read_materials(options, mesh.region_names());
   const Scene scene = read_scene(options, mesh);
@@ -80,5 +80,5 @@ int main(int argc, char** argv) {
       {"slide",
        "Explicit dynamics of a deformable block that is pressed on a rigid surface moving under it: "
        "beta2 time scheme, Lagrange multipliers for contact, regularised Coulomb friction.",
-       mesh_schema() + material_schema() + scene_schema() + record_schema(), slide});
+       periodic_mesh_schema() + material_schema() + scene_schema() + record_schema(), slide});
 }

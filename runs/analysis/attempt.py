@@ -4,13 +4,15 @@
         [--set name=value ...] -- program arguments ...
 
 outcome.yaml: `options`, what --set names; `status`, ok or failed; `reason`, the last thing said by a program that
-failed; `wall_seconds`; `command`. After a failure named by --after, the program is not run and fails for the same
-reason. Everything said is in log.txt beside it. The exit code is 0 either way: a failure is a result. An interrupted
-program (SIGINT, SIGTERM, SIGHUP) is none: it leaves no outcome, and the exit code is 1.
+failed; `wall_seconds`; `cpu_seconds`, of all its processes; `command`. After a failure named by --after, the program
+is not run and fails for the same reason. Everything said is in log.txt beside it. The exit code is 0 either way: a
+failure is a result. An interrupted program (SIGINT, SIGTERM, SIGHUP) is none: it leaves no outcome, and the exit code
+is 1.
 """
 
 import argparse
 import os
+import resource
 import shlex
 import signal
 import subprocess
@@ -65,15 +67,23 @@ def write_whole(path, text):
     os.replace(unfinished, path)
 
 
+def cpu_seconds():
+    """Time that the processes started and ended so far have computed, s: what runs beside them costs less of it than of
+    the time that passes."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def attempt(outcome, command, options=None, after=(), limit=None):
     """Runs `command` and writes the outcome (a path). Returns what was written, as a dict."""
     outcome.parent.mkdir(parents=True, exist_ok=True)
     reasons = [earlier["reason"] for earlier in (yaml.safe_load(path.read_text()) for path in after)
                if earlier["status"] != "ok"]
-    start = time.monotonic()
+    start, computed = time.monotonic(), cpu_seconds()
     reason = f"{FAILED_BEFORE}: {reasons[0]}" if reasons else run(command, outcome.parent / "log.txt", limit)
     found = {"options": options or {}, "status": "failed" if reason else "ok", "reason": reason,
-             "wall_seconds": round(time.monotonic() - start, 3), "command": shlex.join(command)}
+             "wall_seconds": round(time.monotonic() - start, 3), "cpu_seconds": round(cpu_seconds() - computed, 3),
+             "command": shlex.join(command)}
     write_whole(outcome, yaml.safe_dump(found, sort_keys=False, allow_unicode=True, width=1000))
     return found
 

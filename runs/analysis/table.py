@@ -19,9 +19,14 @@ def grid(values):
     return [dict(zip(values, chosen)) for chosen in itertools.product(*lists)]
 
 
+def run_name(options):
+    """The values of all options, joined with '_'."""
+    return "_".join(str(value) for value in options.values())
+
+
 def named_runs(groups, defaults):
-    """The runs of all groups (a dict of grids; an empty list leaves a group out) by name: the values of all options,
-    joined with '_'. A run that several groups ask for is there once. `defaults` holds every option."""
+    """The runs of all groups (a dict of grids; an empty list leaves a group out) by `run_name`. A run that several
+    groups ask for is there once. `defaults` holds every option."""
     runs = {}
     for group in groups.values():
         for options in grid(group):
@@ -29,7 +34,7 @@ def named_runs(groups, defaults):
                 raise ValueError(f"unknown option {sorted(unknown)[0]!r} in a group of runs: known are "
                                  f"{', '.join(defaults)}")
             options = {**defaults, **options}
-            runs["_".join(str(value) for value in options.values())] = options
+            runs[run_name(options)] = options
     return runs
 
 

@@ -22,6 +22,32 @@ std::vector<char> cells_below(const PlaneGrid& grid, double height) {
   return below;
 }
 
+double largest_normal(const std::vector<Vector2>& force) {
+  double largest = 0;
+  for (const Vector2& f : force) largest = std::max(largest, std::abs(f[1]));
+  return largest;
+}
+
+/// Where the run's contact is closed; less than a thousandth of the largest force does not say.
+std::vector<char> pressed(const std::vector<Vector2>& force) {
+  std::vector<char> closed;
+  const double least = 1e-3 * largest_normal(force);
+  for (const Vector2& f : force) closed.push_back(f[1] > least);
+  return closed;
+}
+
+/// Whether there was any.
+bool open_what_pulls(const std::vector<Vector2>& force, std::vector<char>& closed) {
+  bool any = false;
+  const double rounding = 1e-9 * largest_normal(force);
+  for (std::size_t n = 0; n < force.size(); ++n)
+    if (closed[n] && force[n][1] < -rounding) {
+      closed[n] = 0;
+      any = true;
+    }
+  return any;
+}
+
 void refuse_depth(const PlaneGrid& grid, const std::vector<char>& inside, double depth) {
   const auto cells = std::ranges::count(inside, 1);
   if (cells == 0 || cells == grid.cells())
@@ -80,12 +106,8 @@ struct BoundaryLayer::Layer {
     return force;
   }
 
-  /// Closed is what is pressed: more than rounding of the largest force.
-  void hold(const std::vector<Vector2>& force) {
-    double largest = 0;
-    for (const Vector2& f : force) largest = std::max(largest, std::abs(f[1]));
-    std::vector<char> now(force.size());
-    std::ranges::transform(force, now.begin(), [&](const Vector2& f) { return f[1] > 1e-6 * largest; });
+  /// The strip with these contact nodes closed.
+  void hold(const std::vector<char>& now) {
     if (system && now == closed) return;
     closed = now;
     system = std::make_unique<StripSystem>(comm, grid, points, closed);
@@ -101,37 +123,45 @@ struct BoundaryLayer::Layer {
     return centre_strain_displacement(grid.corners_of(cell)) * system->displacement(cell);
   }
 
-  /// Solves with the friction of the pressure that is found, until both agree.
-  void rub(std::span<const PlaneTensor> strain, std::span<const PlaneTensor> stress,
-           const std::vector<Vector2>& run_force) {
+  /// The solution under the run's forces and those added at the contact nodes.
+  void solve(std::span<const PlaneTensor> strain, std::span<const PlaneTensor> stress,
+             const std::vector<Vector2>& added) {
+    system->clear_force();
+    for_cells(inside, [&](int cell, std::size_t place) {
+      const StrainDisplacement b = centre_strain_displacement(grid.corners_of(cell));
+      const Eigen::Vector3d excess =
+          stiffness[grid.region[cell]] * vector(strain[place]) - vector(stress[place]);
+      system->add_force(cell, -area(grid, cell) * b.transpose() * excess);
+    });
+    system->add_contact(added);
+    system->solve();
+    for_cells(inside, [&](int cell, std::size_t place) {
+      vector(sum[place]) = stiffness[grid.region[cell]] * (vector(strain[place]) + corrector(cell));
+    });
+  }
+
+  /// Solves with the friction of the pressure that is found, until both agree; open nodes bear nothing.
+  /// Returns the contact forces.
+  std::vector<Vector2> rub(std::span<const PlaneTensor> strain, std::span<const PlaneTensor> stress,
+                           const std::vector<Vector2>& run) {
     constexpr double tolerance = 1e-10;
     constexpr int most = 200;
-    std::vector<double> added(run_force.size(), 0);  // tangential force beyond the run's, N/m
-    double change = 0;
+    double size = 0;
+    for (const Vector2& f : run) size += std::abs(f[0]) + std::abs(f[1]);
+    std::vector<Vector2> added(run.size(), Vector2{});
+    for (std::size_t n = 0; n < run.size(); ++n)
+      if (!closed[n]) added[n] = {-run[n][0], -run[n][1]};
     for (int k = 0; k < most; ++k) {
-      system->clear_force();
-      for_cells(inside, [&](int cell, std::size_t place) {
-        const StrainDisplacement b = centre_strain_displacement(grid.corners_of(cell));
-        const Eigen::Vector3d excess =
-            stiffness[grid.region[cell]] * vector(strain[place]) - vector(stress[place]);
-        system->add_force(cell, -area(grid, cell) * b.transpose() * excess);
-      });
-      system->add_tangential(added);
-      system->solve();
-      for_cells(inside, [&](int cell, std::size_t place) {
-        vector(sum[place]) = stiffness[grid.region[cell]] * (vector(strain[place]) + corrector(cell));
-      });
+      solve(strain, stress, added);
       const std::vector<Vector2> force = contact_forces(sum);
-      double size = 0;
-      change = 0;
-      for (std::size_t n = 0; n < force.size(); ++n) {
-        const double wanted =
-            closed[n] ? run_force[n][0] / run_force[n][1] * force[n][1] - run_force[n][0] : 0;
-        change += std::abs(wanted - added[n]);
-        size += std::abs(run_force[n][0]) + std::abs(run_force[n][1]);
-        added[n] = wanted;
+      double change = 0;
+      for (std::size_t n = 0; n < run.size(); ++n) {
+        if (!closed[n]) continue;
+        const double wanted = run[n][0] / run[n][1] * force[n][1] - run[n][0];
+        change += std::abs(wanted - added[n][0]);
+        added[n][0] = wanted;
       }
-      if (change <= tolerance * size) return;
+      if (change <= tolerance * size) return force;
     }
     throw UserError(
         "next to the contact, pressure and friction do not settle (-relocalize_correction strip); "
@@ -149,9 +179,11 @@ void BoundaryLayer::correct(std::span<const PlaneTensor> macroscopic_strain,
                             std::span<const PlaneTensor> macroscopic_stress, std::span<PlaneTensor> strain,
                             std::span<PlaneTensor> stress) {
   Layer& layer = *layer_;
-  const std::vector<Vector2> run_force = layer.contact_forces(macroscopic_stress);
-  layer.hold(run_force);
-  layer.rub(macroscopic_strain, macroscopic_stress, run_force);
+  const std::vector<Vector2> run = layer.contact_forces(macroscopic_stress);
+  std::vector<char> closed = pressed(run);
+  do {
+    layer.hold(closed);
+  } while (open_what_pulls(layer.rub(macroscopic_strain, macroscopic_stress, run), closed));
   layer.for_cells(layer.kept, [&](int cell, std::size_t place) {
     vector(strain[place]) = vector(macroscopic_strain[place]) + layer.corrector(cell);
     stress[place] = layer.sum[place];

@@ -97,13 +97,14 @@ void StripSystem::add_force(int cell, const CellVector& force) {
       VecSetValues(force_, static_cast<PetscInt>(force.size()), rows(cell).data(), force.data(), ADD_VALUES));
 }
 
-void StripSystem::add_tangential(const std::vector<double>& force) {
+void StripSystem::add_contact(const std::vector<Vector2>& force) {
   PetscInt begin = 0, end = 0;
   petsc(VecGetOwnershipRange(force_, &begin, &end));
-  for (std::size_t contact = 0; contact < force.size(); ++contact) {
-    const PetscInt row = unknown_[points_.free_of_contact()[contact]][0];
-    if (row >= begin && row < end) petsc(VecSetValue(force_, row, force[contact], ADD_VALUES));
-  }
+  for (std::size_t contact = 0; contact < force.size(); ++contact)
+    for (int i = 0; i < 2; ++i) {
+      const PetscInt row = unknown_[points_.free_of_contact()[contact]][i];
+      if (row >= begin && row < end) petsc(VecSetValue(force_, row, force[contact][i], ADD_VALUES));
+    }
 }
 
 void StripSystem::solve() {

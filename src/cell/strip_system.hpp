@@ -54,8 +54,8 @@ class StripSystem {
 
   using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;
   void clear_force();
-  void add_force(int cell, const CellVector& force);      ///< N/m, corner-wise (x, y)
-  void add_tangential(const std::vector<double>& force);  ///< [contact nodes] N/m, the same on every rank
+  void add_force(int cell, const CellVector& force);    ///< N/m, corner-wise (x, y)
+  void add_contact(const std::vector<Vector2>& force);  ///< [contact nodes] N/m, the same on every rank
   void solve();
   CellVector displacement(int cell) const;  ///< m, of the last solution
 

@@ -19,6 +19,7 @@ void broadcast(MPI_Comm comm, GmshFile& file) {
   int count = static_cast<int>(file.names.size());
   MPI_Bcast(&count, 1, MPI_INT, 0, comm);
   MPI_Bcast(&file.checksum, 1, MPI_UINT64_T, 0, comm);
+  MPI_Bcast(&file.has_periodic_section, 1, MPI_CXX_BOOL, 0, comm);
   file.names.resize(static_cast<std::size_t>(count));
   for (auto& entry : file.names) {
     MPI_Bcast(&entry.dimension, 1, MPI_INT, 0, comm);
@@ -68,10 +69,30 @@ MeshSource mesh_source(const Options& options) {
   return source;
 }
 
+Schema periodic_mesh_schema() {
+  return mesh_schema() +
+         Schema{{"mesh_periodic",
+                 Kind::flag,
+                 "",
+                 "true",
+                 {},
+                 "keep the sides periodic that gmsh made so; false opens them, so that one mesh "
+                 "serves as periodic cell and as block"}};
+}
+
+MeshSource periodic_mesh_source(const Options& options) {
+  MeshSource source = mesh_source(options);
+  source.cut = source.cut_by_choice = !options.flag("mesh_periodic");
+  return source;
+}
+
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   Mesh mesh;
   mesh.file = source.file;
   const GmshFile file = head_of(comm, source.file);
+  if (source.cut_by_choice && !file.has_periodic_section)
+    throw UserError("-mesh_periodic false has no effect: mesh '" + source.file +
+                    "' is not periodic; leave the option out");
   mesh.checksum = file.checksum;
   mesh_stages::distribute(comm, mesh_stages::load_whole(comm, source, file), source.partitioner, mesh);
   return mesh;

@@ -18,6 +18,13 @@ FieldsReader::FieldsReader(MPI_Comm comm, const std::string& path, const std::st
                                "run slide with -fields_every or -fields_times for that folder"})) {
   file_->refuse_unless(file_->has("/time"), "has no /time, so it is not a fields.h5");
   grid_ = file_->grid();
+  block_ = bounding_box(grid_);
+  if (file_->has("/mesh/block"))
+    file_->together([&] {
+      std::array<Vector2, 2> box{};
+      file_->read_rows("/mesh/block", 2, 2, 0, 2, box.front().data());
+      block_ = {box[0], box[1]};
+    });
   file_->together([&] { times_ = file_->reals("/time"); });
   file_->refuse_unless(!times_.empty(), "has no frames yet");
 }

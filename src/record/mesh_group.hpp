@@ -16,7 +16,7 @@ struct MeshLayout {
 };
 
 /// Writes /mesh/coordinates [points, 2], /mesh/cells ([cells, 3], [cells, 4] or XDMF's mixed stream) and
-/// /mesh/region [cells] with the regions' names. Collective.
+/// /mesh/region [cells] with the regions' names; /mesh/block [2, 2], the box of the whole. Collective.
 MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image);
 
 /// What /mesh takes of a file at most, bytes.

@@ -61,7 +61,7 @@ std::vector<char> cells_in(const Cells& cells, const BoundingBox& box) {
 }
 
 MeshImage::MeshImage(MPI_Comm comm, const Mesh& mesh, const std::optional<BoundingBox>& box)
-    : region_names_(mesh.region_names()) {
+    : block_{mesh.lower, mesh.upper}, region_names_(mesh.region_names()) {
   const Rows rows = box ? rows_in(comm, mesh, *box)
                         : Rows{mesh.nodes.number, mesh.cells.number, mesh.nodes.total, mesh.cells.total};
   std::vector<Extra> extras;
@@ -171,7 +171,7 @@ void MeshImage::set_cells(MPI_Comm comm, const Mesh& mesh, const Rows& rows,
 }
 
 MeshImage::MeshImage(MPI_Comm comm, const PlaneGrid& grid, std::size_t begin, std::size_t end)
-    : region_names_(grid.regions) {
+    : block_(bounding_box(grid)), region_names_(grid.regions) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);

@@ -35,8 +35,8 @@ std::string describe(const FieldsReader& run, const LocalisationTensors& tensors
         "from one mesh to avoid it\n",
         other);
   if (const auto& layer = local.boundary_layer())
-    text += format("corrected next to the contact: %ld cells, %ld unknowns, factorised once\n",
-                   layer->cells(), layer->unknowns());
+    text += format("corrected next to the contact: a strip of %ld cells is solved, its lower half kept\n",
+                   layer->cells());
   return text;
 }
 

@@ -29,22 +29,19 @@ double tolerance(const std::vector<double>& times) {
   return same_time * least;
 }
 
-/// Rows of the cells of a share out of the rows of all that lie between them in the file.
+/// Rows of a file from the first to the last one that a share needs; `source`, their numbers, ascend.
+std::size_t reach(const std::vector<int>& source) {
+  return source.empty() ? 0 : static_cast<std::size_t>(source.back() - source.front() + 1);
+}
+std::size_t begin_of(const std::vector<int>& source) {
+  return source.empty() ? 0 : static_cast<std::size_t>(source.front());
+}
+
+/// The rows of the share out of these.
 template <class Row>
-void pick(const std::vector<Row>& range, const Targets& targets, const RankShare& mine,
-          std::vector<Row>& rows) {
-  rows.resize(mine.count());
-  for (std::size_t k = mine.begin; k < mine.end; ++k)
-    rows[k - mine.begin] = range[targets.source_cell[k] - targets.source_cell[mine.begin]];
-}
-
-/// How many rows of the file the cells of a share span.
-std::size_t span_of(const Targets& targets, const RankShare& mine) {
-  return mine.count() == 0 ? 0 : targets.source_cell[mine.end - 1] - targets.source_cell[mine.begin] + 1;
-}
-
-std::size_t begin_of(const Targets& targets, const RankShare& mine) {
-  return mine.count() == 0 ? 0 : static_cast<std::size_t>(targets.source_cell[mine.begin]);
+void pick(const std::vector<Row>& range, const std::vector<int>& source, std::vector<Row>& rows) {
+  rows.resize(source.size());
+  for (std::size_t k = 0; k < source.size(); ++k) rows[k] = range[source[k] - source.front()];
 }
 
 std::vector<PlaneTensor> deviations(const std::vector<PlaneCovariance>& covariances) {
@@ -59,15 +56,12 @@ std::vector<PlaneTensor> tensors(const std::vector<double>& values) {
   return rows;
 }
 
-void refuse_other_window(const StatisticsReader& reference, const StatisticsReader& run) {
-  const double size = std::max(std::abs(run.to()), std::abs(run.from()));
-  if (std::abs(reference.from() - run.from()) > 0.01 * size ||
-      std::abs(reference.to() - run.to()) > 0.01 * size)
+void refuse_layer(double layer, double height) {
+  if (layer >= height)
     throw UserError(
-        format("the statistics of -relocalize_reference are those of %g to %g s and the statistics "
-               "of -relocalize_run those of %g to %g s; record both with the same -statistics_from "
-               "and -statistics_to",
-               reference.from(), reference.to(), run.from(), run.to()));
+        format("-relocalize_layer of %g m is the whole of the block, which is %g m high; give the depth of "
+               "about one cell of the microstructure",
+               layer, height));
 }
 
 }  // namespace
@@ -77,13 +71,15 @@ StressComparison::StressComparison(MPI_Comm comm, const FieldsReader& reference,
                                    const Choice& choice)
     : comm_(comm),
       reference_(reference),
-      targets_(targets),
-      mine_(mine),
       cells_(compared_cells(targets, mine)),
+      source_(targets.source_cell.begin() + static_cast<std::ptrdiff_t>(mine.begin),
+              targets.source_cell.begin() + static_cast<std::ptrdiff_t>(mine.end)),
       reference_frame_(times.size()),
-      range_(span_of(targets, mine)),
+      range_(reach(source_)),
       stress_(mine.count()) {
-  const BoundingBox block = bounding_box(targets.grid);
+  reference.require("stress");
+  const BoundingBox& block = reference.block();
+  refuse_layer(choice.layer, block.extent(1));
   found_.reference = choice.folder;
   found_.zones = {block, block.lower[1], choice.layer, choice.bulk};
   found_.parts = block_parts(cells_, targets.grid.regions, found_.zones);
@@ -100,8 +96,8 @@ StressComparison::StressComparison(MPI_Comm comm, const FieldsReader& reference,
 
 const std::vector<PlaneTensor>* StressComparison::reference_stress(std::size_t frame) {
   if (!reference_frame_[frame]) return nullptr;
-  reference_.read(*reference_frame_[frame], "stress", range_, begin_of(targets_, mine_));
-  pick(range_, targets_, mine_, stress_);
+  reference_.read(*reference_frame_[frame], "stress", range_, begin_of(source_));
+  pick(range_, source_, stress_);
   found_.time.push_back(reference_.times()[*reference_frame_[frame]]);
   return &stress_;
 }
@@ -129,23 +125,32 @@ void StressComparison::compare(const std::string& statistic, const Fields& field
   found_.statistics.push_back({statistic, sums({fields[0], fields[1], fields[2]})});
 }
 
-void StressComparison::add_statistics(const StatisticsReader& reference, const StatisticsReader& run,
+void StressComparison::refuse_other_window(const StatisticsReader& reference, const StatisticsReader& run) {
+  const double size = std::max(std::abs(run.to()), std::abs(run.from()));
+  if (std::abs(reference.from() - run.from()) > 0.01 * size ||
+      std::abs(reference.to() - run.to()) > 0.01 * size)
+    throw UserError(
+        format("the statistics of -relocalize_reference are those of %g to %g s and the statistics "
+               "of -relocalize_run those of %g to %g s; record both with the same -statistics_from "
+               "and -statistics_to",
+               reference.from(), reference.to(), run.from(), run.to()));
+}
+
+void StressComparison::add_statistics(const StatisticsReader& reference, const StrainStatistics& strain,
                                       LocalStress& local) {
-  refuse_other_window(reference, run);
+  std::vector<int> source;
+  const std::vector<int> rows_of_frames = cells_among(reference.grid(), reference_.grid());
+  for (const int cell : source_) source.push_back(rows_of_frames[cell]);
+  std::vector<PlaneTensor> range(reach(source));
   const auto of_reference = [&](const std::string& statistic) {
     std::vector<PlaneTensor> rows;
-    reference.read("stress", statistic, range_, begin_of(targets_, mine_));
-    pick(range_, targets_, mine_, rows);
+    reference.read("stress", statistic, range, begin_of(source));
+    pick(range, source, rows);
     return rows;
   };
-  const auto macro_cells = static_cast<std::size_t>(run.grid().cells());
-  std::vector<PlaneTensor> mean(macro_cells);
-  run.read("strain", "mean", mean);
-  local.update(mean);
+  local.update(strain.mean);
   compare("mean", {of_reference("mean"), local.stress(), local.homogeneous_stress()});
-  std::vector<PlaneCovariance> covariance(macro_cells);
-  run.read_covariance("strain", covariance);
-  const LocalStress::Covariances found = local.covariances(covariance);
+  const LocalStress::Covariances found = local.covariances(strain.covariance);
   compare("deviation",
           {of_reference("deviation"), deviations(found.stress), deviations(found.homogeneous_stress)});
 }

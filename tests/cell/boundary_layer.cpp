@@ -46,48 +46,27 @@ struct Share : RankShare {
   }
 };
 
-/// Strain and stress of a displacement of the points, on this rank's cells.
+/// Fields of this rank's cells.
 struct State {
   std::vector<PlaneTensor> strain, stress;
 };
 
-State state(const PlaneGrid& grid, const RankShare& mine, const std::vector<Vector2>& u) {
-  State found;
-  for (std::size_t cell = mine.begin; cell < mine.end; ++cell) {
-    const int c = static_cast<int>(cell);
-    const StrainDisplacement b = centre_strain_displacement(grid.corners_of(c));
-    Eigen::Vector3d e = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Vector2& corner = u[grid.corners[grid.first[c] + k]];
-      e += b.middleCols(2 * k, 2) * Eigen::Vector2d(corner[0], corner[1]);
-    }
-    const Eigen::Vector3d s = stiffness[grid.region[c]] * e;
-    found.strain.push_back({e[0], e[1], e[2]});
-    found.stress.push_back({s[0], s[1], s[2]});
-  }
-  return found;
+/// The same in all cells: what is there before the correction does not matter where it is replaced.
+State uniform(const RankShare& mine, const PlaneTensor& strain, const PlaneTensor& stress) {
+  return {std::vector<PlaneTensor>(mine.count(), strain), std::vector<PlaneTensor>(mine.count(), stress)};
 }
 
-/// A smooth displacement, and the same with the points below the inner edge moved about.
-std::vector<Vector2> displacement(const PlaneGrid& grid, double disturbance) {
-  std::vector<Vector2> u;
-  for (const Vector2& x : grid.points) {
-    const double a = x[0] / side, b = x[1] / side;
-    const double moved = b < 5.5 ? disturbance : 0;
-    u.push_back({1e-9 * (a * 0.3 - b * 0.7) + moved * std::sin(3 * a + 5 * b),
-                 1e-9 * (-b + 0.1 * a * b) + moved * std::cos(2 * a - b)});
-  }
-  return u;
-}
+PlaneTensor tensor(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
+Eigen::Vector3d vector(const PlaneTensor& x) { return {x[0], x[1], x[2]}; }
 
-const PlaneTensor load{2e5, -1.5e6, 4e5};  // uniform, so it balances its tractions
+const PlaneTensor wrong_strain{1, 2, 3}, wrong_stress{4e9, 5e9, 6e9};
 
-State corrected(const PlaneGrid& grid, double disturbance) {
+State corrected(const PlaneGrid& grid, const std::vector<Eigen::Matrix3d>& c, const State& run) {
   const Share mine(grid);
-  State found = state(grid, mine, displacement(grid, disturbance));
-  BoundaryLayer layer(PETSC_COMM_WORLD, grid, stiffness, mine, depth);
-  layer.correct(std::vector<PlaneTensor>(mine.count(), load), found.strain, found.stress);
-  return found;
+  State local = uniform(mine, wrong_strain, wrong_stress);
+  BoundaryLayer layer(PETSC_COMM_WORLD, grid, c, mine, depth);
+  layer.correct(run.strain, run.stress, local.strain, local.stress);
+  return local;
 }
 
 double largest(const std::vector<PlaneTensor>& rows) {
@@ -97,63 +76,111 @@ double largest(const std::vector<PlaneTensor>& rows) {
   return most;
 }
 
+constexpr double kept = 0.5 * depth;  // replaced below this height
+
+/// ∫ ε(φ):σ at the points, N/m, from the stress of all ranks.
+std::vector<Vector2> nodal_forces(const PlaneGrid& grid, const RankShare& mine,
+                                  const std::vector<PlaneTensor>& stress) {
+  std::vector<Vector2> force(grid.points.size(), Vector2{});
+  for (std::size_t cell = mine.begin; cell < mine.end; ++cell) {
+    const int c = static_cast<int>(cell);
+    const Eigen::Matrix<double, 6, 1> f = area(grid, c) *
+                                          centre_strain_displacement(grid.corners_of(c)).transpose() *
+                                          vector(stress[cell - mine.begin]);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 2; ++i) force[grid.corners[grid.first[c] + k]][i] += f[2 * k + i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, force.data(), static_cast<int>(2 * force.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  return force;
+}
+
+const PlaneTensor pressing{1e-6, -4e-5, 1e-5}, load{2e5, -1.5e6, 4e5};
+
 }  // namespace
 
-// What the start has wrong below the inner edge does not matter: the corrector takes it out.
-TEST(BoundaryLayer, ForgetsTheStartBelowTheInnerEdge) {
+// Nothing to correct: C is C_eff everywhere.
+TEST(BoundaryLayer, LeavesAUniformMaterialAsItIs) {
   const PlaneGrid grid = lattice();
-  const State calm = corrected(grid, 0), moved = corrected(grid, 2e-10);
-  for (std::size_t k = 0; k < calm.stress.size(); ++k)
+  const Share mine(grid);
+  const std::vector<Eigen::Matrix3d> same(2, stiffness[0]);
+  const PlaneTensor stress = tensor(stiffness[0] * vector(pressing));
+  const State found = corrected(grid, same, uniform(mine, pressing, stress));
+  for (std::size_t k = 0; k < mine.count(); ++k) {
+    const bool replaced = centre(grid, static_cast<int>(mine.begin + k))[1] < kept;
     for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(moved.stress[k][i], calm.stress[k][i], 1e-10 * largest(calm.stress));
-      EXPECT_NEAR(moved.strain[k][i], calm.strain[k][i], 1e-10 * largest(calm.strain));
+      EXPECT_NEAR(found.strain[k][i], replaced ? pressing[i] : wrong_strain[i], 1e-12 * 4e-5);
+      EXPECT_NEAR(found.stress[k][i], replaced ? stress[i] : wrong_stress[i], 1e-12 * 2e6);
     }
+  }
 }
 
-// Below the inner edge the corrected stress carries the load's tractions: no nodal force is left.
-TEST(BoundaryLayer, BalancesTheLoad) {
-  const PlaneGrid grid = lattice();
+// Columns of two materials with ν = 0, pressed by e on a rigid surface: σ_yy = E e in each, so that the
+// stiffer ones bear more of the pressure, and nothing else. The run knows the mean only.
+TEST(BoundaryLayer, ColumnsOnARigidSurface) {
+  PlaneGrid grid = lattice();
+  for (Vector2& x : grid.points) x[0] = side * std::round(x[0] / side);
+  for (int cell = 0; cell < grid.cells(); ++cell)
+    grid.region[cell] = static_cast<int>(centre(grid, cell)[0] / (3 * side)) % 2;
+  const std::vector<Eigen::Matrix3d> columns{isotropic_stiffness(30e9, 0), isotropic_stiffness(80e9, 0)};
   const Share mine(grid);
-  const auto residual = [&](const State& now) {
-    std::vector<double> force(2 * grid.points.size(), 0);
-    for (std::size_t cell = mine.begin; cell < mine.end; ++cell) {
-      const int c = static_cast<int>(cell);
-      const StrainDisplacement b = centre_strain_displacement(grid.corners_of(c));
-      const PlaneTensor& s = now.stress[cell - mine.begin];
-      const Eigen::Matrix<double, 6, 1> f =
-          area(grid, c) * b.transpose() * Eigen::Vector3d(s[0] - load[0], s[1] - load[1], s[2] - load[2]);
-      for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < 2; ++i)
-          force[2 * static_cast<std::size_t>(grid.corners[grid.first[c] + k]) + i] += f[2 * k + i];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, force.data(), static_cast<int>(force.size()), MPI_DOUBLE, MPI_SUM,
-                  PETSC_COMM_WORLD);
-    double most = 0;
-    for (std::size_t p = 0; p < grid.points.size(); ++p)
-      if (grid.points[p][1] < 5.5 * side)
-        most = std::max({most, std::abs(force[2 * p]), std::abs(force[2 * p + 1])});
-    return most;
-  };
-  const double before = residual(state(grid, mine, displacement(grid, 0)));
-  EXPECT_GT(before, 0.1 * side * std::abs(load[1]));
-  EXPECT_LT(residual(corrected(grid, 0)), 1e-9 * before);
-}
-
-// Above the strip nothing changes, and the stress stays C : strain.
-TEST(BoundaryLayer, LeavesTheRestAlone) {
-  const PlaneGrid grid = lattice();
-  const Share mine(grid);
-  const State before = state(grid, mine, displacement(grid, 0)), after = corrected(grid, 0);
+  const double e = -3e-5;
+  const State found = corrected(grid, columns, uniform(mine, {0, e, 0}, {0, 55e9 * e, 0}));
   for (std::size_t k = 0; k < mine.count(); ++k) {
     const int cell = static_cast<int>(mine.begin + k);
-    if (centre(grid, cell)[1] > depth) {
-      EXPECT_EQ(after.stress[k], before.stress[k]);
-      EXPECT_EQ(after.strain[k], before.strain[k]);
-    }
-    const PlaneTensor& e = after.strain[k];
-    const Eigen::Vector3d s = stiffness[grid.region[cell]] * Eigen::Vector3d(e[0], e[1], e[2]);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(after.stress[k][i], s[i], 1e-10 * largest(after.stress));
+    if (centre(grid, cell)[1] > 2.1 * side) continue;  // as far as the inner edge does not reach
+    const double modulus = grid.region[cell] == 0 ? 30e9 : 80e9;
+    EXPECT_NEAR(found.stress[k][1], modulus * e, 1e-9 * 80e9 * std::abs(e)) << cell;
+    EXPECT_NEAR(found.stress[k][0], 0, 1e-9 * 80e9 * std::abs(e)) << cell;
   }
+}
+
+// Below the kept half no force is left at a node, but those of the surface: pressure where it is closed, and
+// friction in proportion, as in the run. The stress stays C : strain.
+TEST(BoundaryLayer, BalancesTheRunAndRubsAsItDoes) {
+  const PlaneGrid grid = lattice();
+  const Share mine(grid);
+  const State run = uniform(mine, pressing, load);
+  const State found = corrected(grid, stiffness, run);
+  const auto force = nodal_forces(grid, mine, found.stress), expected = nodal_forces(grid, mine, run.stress);
+  const double scale = side * std::abs(load[1]);
+  for (std::size_t p = 0; p < grid.points.size(); ++p) {
+    if (grid.points[p][1] > kept - 1.5 * side) continue;
+    if (grid.points[p][1] > 0.5 * side) {
+      EXPECT_NEAR(force[p][0], expected[p][0], 1e-8 * scale);
+      EXPECT_NEAR(force[p][1], expected[p][1], 1e-8 * scale);
+    } else {
+      EXPECT_GE(force[p][1], -1e-8 * scale);
+      EXPECT_NEAR(force[p][0], expected[p][0] / expected[p][1] * force[p][1], 1e-8 * scale);
+    }
+  }
+  for (std::size_t k = 0; k < mine.count(); ++k) {
+    const int cell = static_cast<int>(mine.begin + k);
+    if (centre(grid, cell)[1] > kept) continue;
+    const Eigen::Vector3d s = stiffness[grid.region[cell]] * vector(found.strain[k]);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(found.stress[k][i], s[i], 1e-10 * largest(run.stress));
+  }
+}
+
+// Where the run's contact is open the surface bears nothing.
+TEST(BoundaryLayer, OpenNodesAreFree) {
+  const PlaneGrid grid = lattice();
+  const Share mine(grid);
+  State run = uniform(mine, pressing, load);
+  for (std::size_t k = 0; k < mine.count(); ++k)
+    if (centre(grid, static_cast<int>(mine.begin + k))[0] > 0.5 * across * side) run.stress[k] = {2e5, 0, 0};
+  const auto force = nodal_forces(grid, mine, corrected(grid, stiffness, run).stress);
+  double pressed = 0;
+  for (std::size_t p = 0; p < grid.points.size(); ++p) {
+    if (grid.points[p][1] > 0.5 * side) continue;
+    if (grid.points[p][0] > (0.5 * across + 0.5) * side && grid.points[p][0] < (across - 0.5) * side) {
+      EXPECT_NEAR(force[p][0], 0, 1e-8 * side * 1.5e6);
+      EXPECT_NEAR(force[p][1], 0, 1e-8 * side * 1.5e6);
+    }
+    EXPECT_GE(force[p][1], -1e-8 * side * 1.5e6);
+    pressed += force[p][1];
+  }
+  EXPECT_GT(pressed, 0);
 }
 
 // Tiles that touch share no points of their own: joined, they carry load across.

@@ -48,6 +48,7 @@ class EveryOption(InScratch):
         super().setUp()
         block(self.folder / "block.msh")
         block(self.folder / "fine.msh", divisions=16)
+        block(self.folder / "ring.msh", periodic=True)
         (self.folder / "four_times.yaml").write_text(f"stiffness: [{FOUR_TIMES}]\ndensity: {DENSITY}\n")
         self.runs = {}
 

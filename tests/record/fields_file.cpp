@@ -74,7 +74,7 @@ TEST(FieldsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
     const auto expected = read_back::everything(alone.path("fields.h5"));
     const auto found = read_back::everything(folder + "/fields.h5");
     ASSERT_EQ(found.size(), expected.size());
-    EXPECT_EQ(found.size(), 3u + 1u + 2u * 3u);
+    EXPECT_EQ(found.size(), 4u + 1u + 2u * 3u);
     for (const auto& [path, dataset] : expected) {
       EXPECT_EQ(found.at(path).shape, dataset.shape) << name << ' ' << path;
       EXPECT_TRUE(read_back::same_bits(found.at(path).values, dataset.values)) << name << ' ' << path;

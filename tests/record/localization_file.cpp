@@ -107,7 +107,7 @@ TEST(LocalizationFile, HoldsTheSameDataOnAnyNumberOfRanks) {
     const auto expected = read_back::everything(alone.path("localization.h5"));
     const auto found = read_back::everything(folder + "/localization.h5");
     // coordinates, cells, region (of two paths); area, localisation, three stresses; two stiffnesses
-    ASSERT_EQ(expected.size(), 3u + 5u + 2u) << name;
+    ASSERT_EQ(expected.size(), 4u + 5u + 2u) << name;
     ASSERT_EQ(found.size(), expected.size()) << name;
     for (const auto& [path, dataset] : expected) {
       EXPECT_EQ(found.at(path).shape, dataset.shape) << name << ' ' << path;

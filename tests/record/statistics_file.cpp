@@ -91,7 +91,7 @@ TEST(StatisticsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
     write(PETSC_COMM_SELF, alone.path(), folder + "/block.msh");
     const auto expected = read_back::everything(alone.path("statistics.h5"));
     const auto found = read_back::everything(folder + "/statistics.h5");
-    ASSERT_EQ(expected.size(), 3u + 2u * 7u) << name;
+    ASSERT_EQ(expected.size(), 4u + 2u * 7u) << name;
     ASSERT_EQ(found.size(), expected.size()) << name;
     for (const auto& [path, dataset] : expected) {
       EXPECT_EQ(found.at(path).shape, dataset.shape) << name << ' ' << path;
@@ -143,7 +143,7 @@ TEST(StatisticsFile, LeavesOutTailsThatAreNotKnown) {
   const std::string folder = folder_of(analytic::cases()[0].block, false);
   if (rank_of_world() != 0) return;
   const auto all = read_back::everything(folder + "/statistics.h5");
-  EXPECT_EQ(all.size(), 3u + 2u * 3u);
+  EXPECT_EQ(all.size(), 4u + 2u * 3u);
   EXPECT_EQ(all.count("statistics/stress/highest"), 0u);
   EXPECT_EQ(text_of(folder + "/statistics.xdmf").find("quantile"), std::string::npos);
 }

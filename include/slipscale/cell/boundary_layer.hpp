@@ -22,13 +22,14 @@ std::vector<int> joined_points(const PlaneGrid& grid);
 /// There the displacement is that of the homogeneous run plus a corrector w, on the microstructure's mesh:
 ///
 ///     ∫ ε(φ) : C : ε(w) dA = −∫ ε(φ) : (C − C_eff) : E dA + ∫ φ_x (τ − τ_hom) dx    for every φ,
-///     w = 0 on the inner edge,   w_y = 0 where the run's contact is closed,   τ = (τ_hom / p_hom) p.
+///     w = 0 on the inner edge;   w_y = 0, p ≥ 0, τ = (τ_hom / p_hom) p where the run's contact is closed.
 ///
 /// As C_eff:E balances the run's tractions and inertia, so does the sum. The surface is rigid: it prescribes
 /// the displacement of closed nodes, and stiff inclusions bear more of the pressure p, which is found, with
-/// the friction that belongs to it. (With the run's smooth traction prescribed instead, the error next to the
-/// contact doubles.) What the inner edge disturbs decays within a cell: the upper half of the strip is thrown
-/// away. Linear while the same nodes are closed, so means over time may be corrected as well; their
+/// the friction that belongs to it; nodes that it would have to pull are opened and bear nothing. (With the
+/// run's smooth traction prescribed instead, the error next to the contact doubles.) What the inner edge
+/// disturbs decays within a cell: the upper half of the strip is thrown away. Sides count as free of contact,
+/// a seam too. Linear while the same nodes are closed, so means over time may be corrected as well; their
 /// deviations may not. Boundary-layer correctors: Dumontet, RAIRO Modél. Math. Anal. Numér. 20 (1986) 265.
 ///
 /// The strip's stiffness is factorised (MUMPS, Cholesky; options prefix `relocalize_`) when other nodes are

@@ -10,12 +10,17 @@ enum class Partitioner { metis, simple, ptscotch };
 struct MeshSource {
   std::string file;
   Partitioner partitioner = Partitioner::metis;
-  int refine = 0;    ///< uniform refinements, made before partitioning
-  bool cut = false;  ///< leave the sides open that the file makes periodic
+  int refine = 0;              ///< uniform refinements, made before partitioning
+  bool cut = false;            ///< leave the sides open that the file makes periodic
+  bool cut_by_choice = false;  ///< because -mesh_periodic says so: refused where there is nothing to cut
 };
 
 Schema mesh_schema();
 MeshSource mesh_source(const Options& options);
+
+/// For programs that take a periodic mesh as a block too: the same, with the choice to open its sides.
+Schema periodic_mesh_schema();
+MeshSource periodic_mesh_source(const Options& options);
 
 /// Reads a gmsh file into a partitioned mesh with one layer of overlap.
 ///

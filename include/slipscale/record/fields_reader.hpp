@@ -28,6 +28,7 @@ class FieldsReader {
 
   const std::string& path() const;
   const PlaneGrid& grid() const { return grid_; }
+  const BoundingBox& block() const { return block_; }  ///< of the whole body, m, where frames show a part
   const std::vector<double>& times() const { return times_; }  ///< of the frames, s
 
   /// Whether the frames hold `stress` or `strain`.
@@ -43,6 +44,7 @@ class FieldsReader {
  private:
   std::unique_ptr<GridFile> file_;
   PlaneGrid grid_;
+  BoundingBox block_;
   std::vector<double> times_;
 };
 

@@ -32,6 +32,7 @@ class MeshImage {
   MeshImage(MPI_Comm comm, const PlaneGrid& grid, std::size_t begin, std::size_t end);
 
   Topology topology() const { return topology_; }
+  const BoundingBox& block() const { return block_; }  ///< of the whole mesh, m, where a box shows a part
   const FileOrder& points() const { return points_; }
   const FileOrder& cells() const { return cells_; }
   const std::vector<int>& point_nodes() const {
@@ -70,6 +71,7 @@ class MeshImage {
   void add_cell(int place, int region, const std::vector<PetscInt>& points);
   void agree_on_topology(MPI_Comm comm);
 
+  BoundingBox block_;
   Topology topology_ = Topology::triangles;
   FileOrder points_, cells_;
   std::vector<int> point_nodes_, cell_places_;

@@ -9,6 +9,7 @@
 #include "slipscale/cell/local_stress.hpp"
 #include "slipscale/record/comparison_report.hpp"
 #include "slipscale/record/fields_reader.hpp"
+#include "slipscale/record/relocalized_statistics.hpp"
 #include "slipscale/record/running_statistics.hpp"
 #include "slipscale/record/statistics_reader.hpp"
 
@@ -25,7 +26,8 @@ class StressComparison {
   };
 
   /// `targets` are cells of the reference's mesh, and outlive this object like `reference`. `times` are those
-  /// of the homogeneous run's frames. Throws UserError when the runs have no time in common.
+  /// of the homogeneous run's frames. Throws UserError when the reference's frames hold no stress, and when
+  /// the runs have no time in common.
   StressComparison(MPI_Comm comm, const FieldsReader& reference, const Targets& targets,
                    const RankShare& mine, const std::vector<double>& times, const Choice& choice);
 
@@ -36,8 +38,11 @@ class StressComparison {
   /// After `reference_stress`, for a frame that both runs have.
   void add_frame(const LocalStress& local);
 
+  /// Throws UserError unless both are statistics of the same window of time, to a hundredth.
+  static void refuse_other_window(const StatisticsReader& reference, const StatisticsReader& run);
+
   /// Mean and deviation over the window of the two runs' statistics. `local` is left with the mean.
-  void add_statistics(const StatisticsReader& reference, const StatisticsReader& run, LocalStress& local);
+  void add_statistics(const StatisticsReader& reference, const StrainStatistics& strain, LocalStress& local);
 
   /// What was compared; the statistics of the common frames included. Once, at the end.
   Comparison finish();
@@ -50,10 +55,9 @@ class StressComparison {
 
   MPI_Comm comm_;
   const FieldsReader& reference_;
-  const Targets& targets_;
-  const RankShare mine_;
   ComparedCells cells_;
   Comparison found_;
+  std::vector<int> source_;  ///< this rank's cells in the mesh of the reference, ascending
   std::vector<std::optional<std::size_t>> reference_frame_;  ///< by frame of the homogeneous run
   std::vector<PlaneTensor> range_, stress_;
   std::vector<RunningStatistics> frames_;  ///< one for each source, or none where there is but one frame

@@ -38,8 +38,14 @@ class Attempt(unittest.TestCase):
         self.assertEqual(found["options"], {"size": 64, "rtol": 1e-10, "element": "triangle"})
         self.assertEqual(found["command"], "sh -c 'echo done; sleep .2'")
         self.assertTrue(0.2 <= found["wall_seconds"] < 20)
+        self.assertTrue(0 <= found["cpu_seconds"] < 0.2)  # it sleeps
         self.assertEqual((self.outcome.parent / "log.txt").read_text(), "done\n")
         self.assertEqual({file.name for file in self.outcome.parent.iterdir()}, {"outcome.yaml", "log.txt"})
+
+    def test_seconds_computed(self):
+        busy = "import time\nwhile time.process_time() < 0.3: pass"
+        found = self.main("--", sys.executable, "-c", busy)[1]
+        self.assertTrue(0.3 <= found["cpu_seconds"] <= found["wall_seconds"] + 0.05, found)  # one process, one core
 
     def test_failure_is_kept_with_its_last_words(self):
         code, found = self.main("--", "sh", "-c", "echo working; echo 'prog: no such mesh' >&2; echo; exit 2")

@@ -23,6 +23,10 @@ class Runs(unittest.TestCase):
         self.assertEqual(list(runs), ["fine_1.0_1", "fine_2.0_1", "coarse_1.0_1"])
         self.assertEqual(runs["coarse_1.0_1"], {"mesh": "coarse", "speed": 1.0, "repeat": 1})
 
+    def test_name_of_one_run(self):
+        runs = table.named_runs({"one": {"mesh": "coarse"}}, DEFAULTS)
+        self.assertEqual([table.run_name(options) for options in runs.values()], list(runs))
+
     def test_refuses_an_option_without_default(self):
         with self.assertRaisesRegex(ValueError, "unknown option 'sped' .* mesh, speed, repeat"):
             table.named_runs({"speeds": {"sped": 1}}, DEFAULTS)
