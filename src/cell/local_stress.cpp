@@ -26,16 +26,6 @@ std::span<const Site> share_of(const std::vector<Site>& sites, const RankShare& 
   return std::span(sites).subspan(mine.begin, mine.count());
 }
 
-Eigen::Matrix3d matrix(const PlaneCovariance& c) {
-  Eigen::Matrix3d m;
-  m << c[0], c[5], c[4], c[5], c[1], c[3], c[4], c[3], c[2];
-  return m;
-}
-
-PlaneCovariance covariance(const Eigen::Matrix3d& m) {
-  return {m(0, 0), m(1, 1), m(2, 2), m(1, 2), m(0, 2), m(0, 1)};
-}
-
 }  // namespace
 
 LocalStress::LocalStress(MPI_Comm comm, const LocalisationTensors& tensors, const PlaneGrid& macro,
@@ -69,9 +59,8 @@ LocalStress::Covariances LocalStress::covariances(std::span<const PlaneCovarianc
   relocalization_.macroscopic(macro_strain, macroscopic);
   relocalization_.stress_covariance(macroscopic, found.stress);
   relocalization_.strain_covariance(macroscopic, found.strain);
-  std::ranges::transform(macroscopic, found.homogeneous_stress.begin(), [&](const PlaneCovariance& c) {
-    return covariance(effective_ * matrix(c) * effective_.transpose());
-  });
+  std::ranges::transform(macroscopic, found.homogeneous_stress.begin(),
+                         [&](const PlaneCovariance& c) { return transformed(c, effective_); });
   return found;
 }
 

@@ -31,15 +31,16 @@ PlaneCovariance six(const Eigen::Matrix3d& c) {
   return {c(0, 0), c(1, 1), c(2, 2), c(1, 2), c(0, 2), c(0, 1)};
 }
 
-void congruence(const std::vector<Eigen::Matrix3d>& tensors, const std::vector<int>& cell,
-                std::span<const PlaneCovariance> from, std::span<PlaneCovariance> to) {
-  for (std::size_t p = 0; p < cell.size(); ++p) {
-    const Eigen::Matrix3d& t = tensors[cell[p]];
-    to[p] = six(t * matrix(from[p]) * t.transpose());
-  }
+void transform(const std::vector<Eigen::Matrix3d>& tensors, const std::vector<int>& cell,
+               std::span<const PlaneCovariance> from, std::span<PlaneCovariance> to) {
+  for (std::size_t p = 0; p < cell.size(); ++p) to[p] = transformed(from[p], tensors[cell[p]]);
 }
 
 }  // namespace
+
+PlaneCovariance transformed(const PlaneCovariance& covariance, const Eigen::Matrix3d& t) {
+  return six(t * matrix(covariance) * t.transpose());
+}
 
 RankShare rank_share(std::size_t total, int rank, int ranks) {
   const auto p = static_cast<std::size_t>(rank), n = static_cast<std::size_t>(ranks);
@@ -67,12 +68,12 @@ void Relocalization::stress(std::span<const PlaneTensor> macroscopic, std::span<
 
 void Relocalization::strain_covariance(std::span<const PlaneCovariance> macroscopic,
                                        std::span<PlaneCovariance> local) const {
-  congruence(localisation_, micro_cell_, macroscopic, local);
+  transform(localisation_, micro_cell_, macroscopic, local);
 }
 
 void Relocalization::stress_covariance(std::span<const PlaneCovariance> macroscopic,
                                        std::span<PlaneCovariance> local) const {
-  congruence(concentration_, micro_cell_, macroscopic, local);
+  transform(concentration_, micro_cell_, macroscopic, local);
 }
 
 PlaneTensor deviation(const PlaneCovariance& covariance) {

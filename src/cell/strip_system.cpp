@@ -79,14 +79,12 @@ void StripSystem::factorise() {
   petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
   petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   petsc(KSPCreate(comm_, ksp_.put()));
-  petsc(KSPSetOptionsPrefix(ksp_, "relocalize_"));
   petsc(KSPSetOperators(ksp_, matrix_, matrix_));
   petsc(KSPSetType(ksp_, KSPPREONLY));
   PC pc = nullptr;
   petsc(KSPGetPC(ksp_, &pc));
   petsc(PCSetType(pc, PCCHOLESKY));
   petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  petsc(KSPSetFromOptions(ksp_));
   petsc(KSPSetUp(ksp_));
 }
 
@@ -114,9 +112,8 @@ void StripSystem::solve() {
   KSPConvergedReason reason;
   petsc(KSPGetConvergedReason(ksp_, &reason));
   if (reason < 0)
-    throw UserError(std::string("the strip next to the contact could not be solved (KSP ") +
-                    KSPConvergedReasons[reason] +
-                    "); leave the options -relocalize_ksp_ and -relocalize_pc_ out");
+    throw LibraryError(std::string("the strip next to the contact could not be solved (KSP ") +
+                       KSPConvergedReasons[reason] + ")");
   petsc(VecScatterBegin(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
   petsc(VecScatterEnd(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
   const PetscScalar* values = nullptr;

@@ -29,6 +29,8 @@ HOMOGENEOUS = {**HETEROGENEOUS, **{name: None for name in MATERIALS}, "material_
 CELL = {"mesh_file": "block.msh", **MATERIALS, "cell_boundary": "kubc", "output_folder": "cell"}
 RUN = {"relocalize_run": "homogeneous", "relocalize_tensors": "cell", "output_folder": "out"}
 COMPARED = {"relocalize_reference": "heterogeneous", "relocalize_layer": 0.7e-3, "relocalize_bulk": 0.7e-3}
+POINTS = {"relocalize_points": "2.6e-3,0.3e-3,1.3e-3,3.3e-3"}
+COMPONENTS = ("xx", "yy", "xy")
 
 
 class Relocalising(Homogenising):
@@ -54,6 +56,18 @@ class Relocalising(Homogenising):
 
     def comparison(self, folder="out"):
         return yaml.safe_load((self.folder / folder / "comparison.yaml").read_text())
+
+    def assert_close(self, found, expected, tolerance, name=""):
+        """To a part of the largest value; nan where nan is expected."""
+        found, expected = np.asarray(found), np.asarray(expected)
+        scale = np.nanmax(np.abs(expected), initial=0)
+        np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), rtol=0, atol=tolerance * scale,
+                                   err_msg=name)
+
+
+def apply(tensors, rows):
+    """[cells, 3, 3] and [cells, 3]"""
+    return np.einsum("cij,cj->ci", tensors, rows)
 
 
 def corners_of(file):

@@ -98,7 +98,7 @@ MISTAKES = {
     "no bulk": missing("relocalize_bulk", **{**COMPARED, "relocalize_bulk": None}),
     "layer of nothing": value("relocalize_layer", 0, "> 0", **COMPARED),
     "layer below": value("relocalize_layer", -1e-3, "> 0", **COMPARED),
-    "layer of the whole": value("relocalize_layer", SIDE, "0.005 m high", "one cell of the microstructure", **COMPARED),
+    "layer of the whole": value("relocalize_layer", SIDE, "0.005 m high", "one cell of the", **COMPARED),
     "bulk of nothing": value("relocalize_bulk", SIDE / 2, "no bulk", "below 0.0025 m", **COMPARED),
     "bulk beyond": value("relocalize_bulk", -1e-3, ">= 0", **COMPARED),
     "layer of no comparison": Mistake(["-relocalize_layer has no effect without -relocalize_reference", "remove it"],
@@ -121,9 +121,9 @@ MISTAKES = {
     "strip of tiles that overhang": Mistake(["-relocalize_correction strip", "contact is at y = 0 m", "an edge of"],
                                             {**TORUS, "relocalize_origin": "0,2e-4", "relocalize_correction": "strip",
                                              "relocalize_strip": 2e-3}),
-    "strip of frames without contact": Mistake(["-relocalize_correction strip", "from y = 0.001875 m on", "-fields_box"],
-                                               {"relocalize_run": "upper", "relocalize_correction": "strip",
-                                                "relocalize_strip": 2e-3}),
+    "strip of frames without contact": Mistake(
+        ["-relocalize_correction strip", "from y = 0.001875 m on", "-fields_box"],
+        {"relocalize_run": "upper", "relocalize_correction": "strip", "relocalize_strip": 2e-3}),
     "strip without correction": Mistake(["-relocalize_strip has no effect with -relocalize_correction none"],
                                         {"relocalize_strip": 2e-3}),
     # Words and names
@@ -134,8 +134,8 @@ MISTAKES = {
                                {"relocalize_refernce": "heterogeneous"}),
     "needed option misspelt": Mistake(["-relocalize_tensor is not an option", "did you mean -relocalize_tensors?"],
                                       {"relocalize_tensors": None, "relocalize_tensor": "cell"}),
-    "option misspelt in the file": Mistake(["-relocalize_recover is not an option",
-                                            "did you mean -relocalize_recovery?"], yaml="relocalize: {recover: nodal}\n"),
+    "option misspelt in the file": Mistake(["-relocalize_recover is not an option", "mean -relocalize_recovery?"],
+                                           yaml="relocalize: {recover: nodal}\n"),
     "option in capitals": Mistake(["-Relocalize_points differs in capitals", "write -relocalize_points"],
                                   {"Relocalize_points": "1e-3,1e-3"}),
     "option of slide": Mistake(["-time_end is not an option of relocalize"], {"time_end": 1}),
@@ -148,7 +148,8 @@ MISTAKES = {
     # Folders
     "no folder": missing("output_folder", "relocalized.h5"),
     "folder is a file": Mistake(["-output_folder 'block.msh'", "give a folder"], {"output_folder": "block.msh"}),
-    "folder in a file": Mistake(["-output_folder 'block.msh/out'", "give a folder"], {"output_folder": "block.msh/out"}),
+    "folder in a file": Mistake(["-output_folder 'block.msh/out'", "give a folder"],
+                                {"output_folder": "block.msh/out"}),
     "folder that nobody can make": Mistake(["-output_folder '/proc/slipscale'", "give a folder"],
                                            {"output_folder": "/proc/slipscale"}),
 }

@@ -32,7 +32,7 @@ std::vector<int> joined_points(const PlaneGrid& grid);
 /// a seam too. Linear while the same nodes are closed, so means over time may be corrected as well; their
 /// deviations may not. Boundary-layer correctors: Dumontet, RAIRO Modél. Math. Anal. Numér. 20 (1986) 265.
 ///
-/// The strip's stiffness is factorised (MUMPS, Cholesky; options prefix `relocalize_`) when other nodes are
+/// The strip's stiffness is factorised (MUMPS, Cholesky) when other nodes are
 /// closed than before; friction takes a few pairs of triangular solves.
 class BoundaryLayer {
  public:

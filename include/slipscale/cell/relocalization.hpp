@@ -71,6 +71,9 @@ class Relocalization {
   std::vector<Eigen::Matrix3d> localisation_, concentration_;  ///< A and C:A (Pa), [micro cells]
 };
 
+/// T cov Tᵀ: the covariance of T:E from that of E.
+PlaneCovariance transformed(const PlaneCovariance& covariance, const Eigen::Matrix3d& t);
+
 /// √ of the variances, 0 where rounding makes one negative.
 PlaneTensor deviation(const PlaneCovariance& covariance);
 
