@@ -36,6 +36,10 @@ std::vector<char> pressed(const std::vector<Vector2>& force) {
   return closed;
 }
 
+/// Friction that exceeds the pressure, since its memory lags behind a pressure that falls, says nothing about
+/// another pressure: it stays as it is.
+bool in_proportion(const Vector2& force) { return std::abs(force[0]) <= force[1]; }
+
 /// Whether there was any.
 bool open_what_pulls(const std::vector<Vector2>& force, std::vector<char>& closed) {
   bool any = false;
@@ -156,7 +160,7 @@ struct BoundaryLayer::Layer {
       const std::vector<Vector2> force = contact_forces(sum);
       double change = 0;
       for (std::size_t n = 0; n < run.size(); ++n) {
-        if (!closed[n]) continue;
+        if (!closed[n] || !in_proportion(run[n])) continue;
         const double wanted = run[n][0] / run[n][1] * force[n][1] - run[n][0];
         change += std::abs(wanted - added[n][0]);
         added[n][0] = wanted;

@@ -22,7 +22,8 @@ std::vector<int> joined_points(const PlaneGrid& grid);
 /// There the displacement is that of the homogeneous run plus a corrector w, on the microstructure's mesh:
 ///
 ///     ∫ ε(φ) : C : ε(w) dA = −∫ ε(φ) : (C − C_eff) : E dA + ∫ φ_x (τ − τ_hom) dx    for every φ,
-///     w = 0 on the inner edge;   w_y = 0, p ≥ 0, τ = (τ_hom / p_hom) p where the run's contact is closed.
+///     w = 0 on the inner edge;   w_y = 0, p ≥ 0, τ = (τ_hom / p_hom) p where the run's contact is closed
+///     (τ = τ_hom where that exceeds p_hom).
 ///
 /// As C_eff:E balances the run's tractions and inertia, so does the sum. The surface is rigid: it prescribes
 /// the displacement of closed nodes, and stiff inclusions bear more of the pressure p, which is found, with
