@@ -70,15 +70,17 @@ void relocalize(Options& options) {
   LocalHistories histories(comm, targets, mine, choice.points);
   std::optional<StressComparison> comparison;
   if (reference) comparison.emplace(comm, *reference, targets, mine, run.times(), *choice.reference);
-  const auto statistics = statistics_of(comm, choice.run, "relocalize_run");
+  const auto statistics = statistics_of(comm, run.folder(), "relocalize_run");
   const auto expected_statistics = statistics && reference
-                                       ? statistics_of(comm, choice.reference->folder, "relocalize_reference")
+                                       ? statistics_of(comm, reference->folder(), "relocalize_reference")
                                        : std::optional<StatisticsReader>();
   std::optional<StrainStatistics> mean_strain;
   if (statistics) mean_strain = strain_statistics(*statistics, run.grid());
   if (expected_statistics) StressComparison::refuse_other_window(*expected_statistics, *statistics);
   options.refuse_unknown();
   print(describe(run, tensors, targets, local));
+  if (statistics && reference && !expected_statistics)
+    print("note: the heterogeneous run has no statistics.h5, so statistics are not compared\n");
 
   const OutputFolder folder(comm, choice.folder,
                             {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",

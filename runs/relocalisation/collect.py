@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 import yaml
 
 from analysis.comparison import compare_phases, read_comparison
-from analysis.reading import Summary
+from analysis.mesh import centroids_and_areas
+from analysis.reading import Statistics, Summary
 from analysis.table import collect, write_csv
 
 
@@ -19,19 +21,29 @@ def costs(run, before):
             for name, path in {"relocalize": run, **before}.items()}
 
 
-def frequencies(before):
-    """The strongest in the friction of both runs, Hz; None without a spectrum."""
+def vibrations(before):
+    """Of both runs: the strongest frequency of friction, Hz, and the standard deviation of σ_yy over time, root of its
+    mean square over the area, Pa; None where a run has no spectrum or no statistics."""
     found = {}
     for scale in ("heterogeneous", "homogeneous"):
-        peaks = Summary(Path(before[scale]).parent).headline.get("spectrum_peaks") or [None]
-        found[f"{scale}_frequency"] = peaks[0]
+        folder = Path(before[scale]).parent
+        peaks = Summary(folder).headline.get("spectrum_peaks") or [None]
+        found.update({f"{scale}_frequency": peaks[0], f"{scale}_deviation": deviation(folder)})
     return found
+
+
+def deviation(folder):
+    if not (folder / "statistics.h5").is_file():
+        return None
+    with Statistics(folder) as file:
+        _, area = centroids_and_areas(file.coordinates, file.triangles, file.cell_of_triangle)
+        return np.sqrt(np.average(file.read("deviation")[:, 1]**2, weights=area))
 
 
 def rows_of(run, before):
     """A failed run has one row with its reason."""
     run = Path(run)
-    row = collect([run], lambda folder: {**costs(run, before), **frequencies(before)})[0]
+    row = collect([run], lambda folder: {**costs(run, before), **vibrations(before)})[0]
     if row["status"] != "ok":
         return [row]
     if row["tensors"] == "periodic":

@@ -73,6 +73,11 @@ def case_table(study):
     return markdown(["case", "σ_yy", "all", "layer at the contact", "bulk", "matrix", "inclusions"], lines)
 
 
+def both_scales(row, name, unit, form):
+    values = [row[f"{scale}_{name}"] for scale in ("heterogeneous", "homogeneous")]
+    return ", ".join(f"{unit * value:{form}}" if value is not None else "-" for value in values)
+
+
 def morphology_table(study):
     """Where there are several."""
     lines = []
@@ -80,13 +85,12 @@ def morphology_table(study):
         runs = study.varied(best, "seed")
         for run in runs if len(runs) > 1 else []:
             row = study.row[run]
-            frequencies = [row[f"{scale}_frequency"] for scale in ("heterogeneous", "homogeneous")]
-            lines.append([run[0], run[1], ", ".join(f"{float(f) / 1e3:.0f}" if f else "-" for f in frequencies),
-                          study.change(run, "all"),
+            lines.append([run[0], run[1], both_scales(row, "frequency", 1e-3, ".0f"),
+                          both_scales(row, "deviation", MEGA, ".3g"), study.change(run, "all"),
                           *(study.change(run, part, measure=measure) for measure in ("error_mean", "error_deviation")
                             for part in ("all", "bulk"))])
-    return markdown(["case", "seed", "strongest frequency [kHz]", "σ_yy, single times, all", "time mean, all", "bulk", "standard deviation, all",
-                     "bulk"], lines)
+    return markdown(["case", "seed", "frequency [kHz]", "deviation [MPa]", "σ_yy, single times, all", "time mean, all",
+                     "bulk", "standard deviation, all", "bulk"], lines)
 
 
 def correction_table(study):
@@ -182,7 +186,8 @@ Relative L2 error of σ_yy against the heterogeneous run, homogeneous → reloca
 
 {case_table(study)}
 {"".join(f"- {line}{chr(10)}" for line in lines)}
-Other morphologies of the same composite; the frequency is that of friction, heterogeneous and homogeneous:
+Other morphologies of the same composite; strongest frequency of friction, and standard deviation of σ_yy over time
+(root mean square over the block), of the heterogeneous and the homogeneous run:
 
 {morphology_table(study)}
 Local σ_yy over time at points (when sliding is stable it hardly changes, and correlation and slope mean little):

@@ -1,5 +1,7 @@
 #include "slipscale/record/fields_reader.hpp"
 
+#include <filesystem>
+
 #include "grid_file.hpp"
 #include "slipscale/base/print.hpp"
 
@@ -34,7 +36,15 @@ FieldsReader::FieldsReader(FieldsReader&&) noexcept = default;
 
 const std::string& FieldsReader::path() const { return file_->path(); }
 
-bool FieldsReader::has(const std::string& quantity) const { return file_->has(dataset(0, quantity)); }
+std::string FieldsReader::folder() const {
+  return std::filesystem::absolute(file_->path()).parent_path().string();
+}
+
+bool FieldsReader::has(const std::string& quantity) const {
+  for (std::size_t frame = 0; frame < times_.size(); ++frame)
+    if (!file_->has(dataset(frame, quantity))) return false;
+  return true;
+}
 
 void FieldsReader::require(const std::string& quantity) const {
   file_->refuse_unless(has(quantity), "has no " + quantity,
@@ -43,7 +53,6 @@ void FieldsReader::require(const std::string& quantity) const {
 
 void FieldsReader::read(std::size_t frame, const std::string& quantity, std::span<std::array<double, 3>> rows,
                         std::size_t begin) const {
-  require(quantity);
   file_->together([&] {
     file_->read_rows(dataset(frame, quantity), static_cast<hsize_t>(grid_.cells()), 3, begin, rows.size(),
                      rows.empty() ? nullptr : rows.front().data());

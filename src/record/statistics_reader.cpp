@@ -50,7 +50,8 @@ bool has_statistics(MPI_Comm comm, const std::string& folder) {
   int rank = 0, found = 0;
   MPI_Comm_rank(comm, &rank);
   std::error_code ignored;
-  if (rank == 0) found = std::filesystem::exists(folder + "/statistics.h5", ignored);
+  namespace fs = std::filesystem;
+  if (rank == 0) found = fs::exists(fs::path(folder) / "statistics.h5", ignored);
   MPI_Bcast(&found, 1, MPI_INT, 0, comm);
   return found != 0;
 }

@@ -26,12 +26,13 @@ class FieldsReader {
   ~FieldsReader();
   FieldsReader(FieldsReader&&) noexcept;
 
-  const std::string& path() const;
+  const std::string& path() const;  ///< of the file
+  std::string folder() const;       ///< it lies in
   const PlaneGrid& grid() const { return grid_; }
   const BoundingBox& block() const { return block_; }  ///< of the whole body, m, where frames show a part
   const std::vector<double>& times() const { return times_; }  ///< of the frames, s
 
-  /// Whether the frames hold `stress` or `strain`.
+  /// Whether all frames hold `stress` or `strain`.
   bool has(const std::string& quantity) const;
   /// Throws UserError with the cure where the frames lack it. Collective.
   void require(const std::string& quantity) const;
