@@ -72,6 +72,7 @@ struct BoundaryLayer::Layer {
   StripPoints points;
   std::vector<char> closed;  ///< [contact nodes], of the system below
   std::unique_ptr<StripSystem> system;
+  std::vector<double> borne;  ///< [contact nodes] pressure found over that of the run, lately
   int factorisations = 0;
   std::vector<PlaneTensor> sum;  ///< [share] stress with the corrector's, Pa
 
@@ -83,6 +84,7 @@ struct BoundaryLayer::Layer {
         inside(cells_below(mesh, bounding_box(mesh).lower[1] + depth)),
         kept(cells_below(mesh, bounding_box(mesh).lower[1] + 0.5 * depth)),
         points(mesh, inside),
+        borne(points.contact_count(), 1.0),
         sum(share.count()) {
     refuse_depth(mesh, inside, depth);
   }
@@ -153,8 +155,12 @@ struct BoundaryLayer::Layer {
     double size = 0;
     for (const Vector2& f : run) size += std::abs(f[0]) + std::abs(f[1]);
     std::vector<Vector2> added(run.size(), Vector2{});
-    for (std::size_t n = 0; n < run.size(); ++n)
-      if (!closed[n]) added[n] = {-run[n][0], -run[n][1]};
+    for (std::size_t n = 0; n < run.size(); ++n) {
+      if (!closed[n])
+        added[n] = {-run[n][0], -run[n][1]};
+      else if (in_proportion(run[n]))
+        added[n][0] = (borne[n] - 1) * run[n][0];
+    }
     for (int k = 0; k < most; ++k) {
       solve(strain, stress, added);
       const std::vector<Vector2> force = contact_forces(sum);
@@ -164,6 +170,7 @@ struct BoundaryLayer::Layer {
         const double wanted = run[n][0] / run[n][1] * force[n][1] - run[n][0];
         change += std::abs(wanted - added[n][0]);
         added[n][0] = wanted;
+        borne[n] = force[n][1] / run[n][1];
       }
       if (change <= tolerance * size) return force;
     }

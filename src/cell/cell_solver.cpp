@@ -12,6 +12,7 @@ namespace slipscale {
 namespace {
 
 constexpr double tolerance = 1e-10;      ///< of the residual, relative
+constexpr double loosest = 0.1;          ///< of the same, whatever the linear solver is content with
 constexpr double rounding = 1e-13;       ///< of the residual, over the forces that cancel in it
 constexpr PetscInt direct_below = 5000;  ///< unknowns: a factorisation is quicker than multigrid
 constexpr PetscInt most_iterations = 500;
@@ -143,7 +144,8 @@ void CellSolver::complete_choice() {
   PetscReal linear = 0;
   petsc(KSPGetTolerances(ksp, &linear, nullptr, nullptr, nullptr));
   if (!given("-snes_rtol"))
-    petsc(SNESSetTolerances(snes_, PETSC_DEFAULT, 2 * linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+    petsc(SNESSetTolerances(snes_, PETSC_DEFAULT, std::min(2 * linear, loosest), PETSC_DEFAULT, PETSC_DEFAULT,
+                            PETSC_DEFAULT));
   if (is(pc, PCCHOLESKY) && !given("-pc_factor_mat_solver_type"))
     petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 }

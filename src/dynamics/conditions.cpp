@@ -86,9 +86,9 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
     for (const char* key : {"x", "y", "pressure", "shear", "ramp"}) any = any || options.given(prefix + key);
     if (!any) continue;
     if (boundary.interior)
-      throw UserError(
-          "-" + prefix + "…: boundary '" + boundary.name +
-          "' lies inside the body (a periodic seam or an interface), where no condition can act; remove it");
+      throw UserError("-" + prefix + "…: boundary '" + boundary.name +
+                      "' lies inside the body (a periodic seam or an interface), where no condition can act; "
+                      "remove it, or open the periodic sides with -mesh_periodic false");
     BoundaryCondition condition{boundary.name, {}, 0, 0, 0};
     condition.displacement = {prescribed(options, prefix + "x"), prescribed(options, prefix + "y")};
     read_tractions(options, mesh, boundary, condition);

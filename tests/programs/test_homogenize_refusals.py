@@ -147,7 +147,7 @@ MISTAKES = {
     "SNES diverges": Mistake(["unit load xx did not converge (SNES DIVERGED_MAX_IT after 0 Newton steps)",
                               "leave the options -cell_snes_ out"], {"cell_snes_max_it": 0}),
     "KSP not asked for enough": Mistake(["did not converge (SNES DIVERGED_MAX_IT", "-cell_ksp_converged_reason"],
-                                        {**WEAK, "cell_ksp_rtol": 0.5, "cell_snes_max_it": 3}),
+                                        {**WEAK, "cell_ksp_rtol": 0.5, "cell_snes_rtol": 1e-10, "cell_snes_max_it": 3}),
     # Folders
     "no folder": missing("output_folder", "effective.yaml"),
     "folder is a file": Mistake(["-output_folder 'plain.msh'", "give a folder"], {"output_folder": "plain.msh"}),

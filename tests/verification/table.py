@@ -13,20 +13,22 @@ import re
 import subprocess
 import sys
 
-ROW = re.compile(r"^\d+: verification \| (.*)$")
+ROW = re.compile(r"^(\d+): verification \| (.*)$")
 BEGIN, END = "<!-- verification table: begin -->", "<!-- verification table: end -->"
 
 
 def findings(log):
     """Rows in the order of the tests, each with the sorted rank counts that found it."""
-    ranks, rows = {}, {}
+    ranks, printed, rows = {}, [], {}
     for line in log.splitlines():
         if started := re.match(r"^\s*Start\s+(\d+): \S+\.np(\d+)", line):
-            ranks[started[1]] = int(started[2])
+            ranks[int(started[1])] = int(started[2])
         elif row := ROW.match(line):
-            rows.setdefault(row[1], set()).add(ranks[line.split(":")[0]])
+            printed.append((int(row[1]), row[2]))
+    for test, row in sorted(printed, key=lambda each: each[0]):  # tests run side by side and end as they like
+        rows.setdefault(row, set()).add(ranks[test])
     found = [(tuple(row.split(" | ")), sorted(on)) for row, on in rows.items()]
-    topics = list(dict.fromkeys(row[0] for row, _ in found))  # tests run side by side: keep a case together
+    topics = list(dict.fromkeys(row[0] for row, _ in found))  # keep a case together
     return sorted(found, key=lambda entry: topics.index(entry[0][0]))
 
 
