@@ -4,28 +4,11 @@ exit code 2 on every rank, no file touched.
 SLIPSCALE_RANKS says on how many ranks.
 """
 
-import os
-import shutil
 import unittest
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 
 from homogenising import FILES, ONE_REGION, RUN, Homogenising, hollow
-from running import arguments_of, snapshot, yaml_of
+from mistakes import RANKS, Mistake, Mistaken
 from scenes import block
-
-RANKS = int(os.environ.get("SLIPSCALE_RANKS", "1"))
-AT_ONCE = 2  # starting and ending a parallel job is mostly waiting
-
-
-@dataclass
-class Mistake:
-    """Words that the sentence must have, and how the run is spoiled."""
-
-    words: list
-    changes: dict = field(default_factory=dict)  # None leaves an option out
-    arguments: list = field(default_factory=list)  # put behind the others
-    yaml: str = ""  # put below them in a file
 
 
 def value(option, wrong, *words):
@@ -195,7 +178,9 @@ def with_moved_node(mesh_text):
     return "\n".join(lines)
 
 
-class Refusals(Homogenising):
+class Refusals(Mistaken, Homogenising):
+    program, options, files, mistakes = "homogenize", RUN, FILES, MISTAKES
+
     def setUp(self):
         super().setUp()
         self.material = self.folder / "material"
@@ -214,33 +199,6 @@ class Refusals(Homogenising):
         block(self.material / "old_torus.msh", periodic=True, form="msh2")
         block(self.material / "nameless.msh", names=False)
         block(self.material / "narrow.msh", periodic=True, divisions=2)
-
-    def test_mistakes(self):
-        with ThreadPoolExecutor(AT_ONCE) as pool:
-            made = {name: pool.submit(self.make, mistake, self.folder / str(count), (count + RANKS) % 2 == 0)
-                    for count, (name, mistake) in enumerate(MISTAKES.items())}
-            for name, mistake in MISTAKES.items():
-                with self.subTest(name):
-                    outcome, before, after = made[name].result()
-                    self.assert_refused("homogenize", outcome, mistake.words, RANKS)
-                    self.assertEqual(before, after, "files were touched")
-        self.check_without_mistakes()
-
-    def make(self, mistake, folder, older_run):
-        """Spoils a run in its own folder: what was said, and what the folder held before and after.
-
-        An older run may be in the output folder or not: each mistake meets both, on one rank or on two.
-        """
-        shutil.copytree(self.material, folder)
-        (folder / "run.yaml").write_text(yaml_of(RUN) + mistake.yaml)
-        if older_run:
-            (folder / "out").mkdir()
-            for file in (*FILES, "notes.txt"):
-                (folder / "out" / file).write_text("of an older run")
-        before = snapshot(folder)
-        given = ["-options_file_yaml", "run.yaml"] if mistake.yaml else arguments_of({**RUN, **mistake.changes})
-        outcome = self.homogenize(*given, *mistake.arguments, ranks=RANKS, folder=folder)
-        return outcome, before, snapshot(folder)
 
     def check_without_mistakes(self):
         """What the mistakes are made of is sound: the cell, and cut open also one whose sides do not match."""

@@ -4,30 +4,15 @@
 SLIPSCALE_RANKS says on how many ranks.
 """
 
-import os
 import shutil
 import unittest
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 
 import numpy as np
 from homogenising import RUN as MICRO
+from mistakes import RANKS, Mistake, Mistaken
 from relocalizing import COMPARED, FILES, HOMOGENEOUS, RUN, Relocalising, centres_of, replace
-from running import arguments_of, datasets, h5py, snapshot, yaml_of
+from running import datasets, h5py
 from scenes import SIDE, block
-
-RANKS = int(os.environ.get("SLIPSCALE_RANKS", "1"))
-AT_ONCE = 2  # starting and ending a parallel job is mostly waiting
-
-
-@dataclass
-class Mistake:
-    """Words that the sentence must have, and how the run is spoiled."""
-
-    words: list
-    changes: dict = field(default_factory=dict)  # None leaves an option out
-    arguments: list = field(default_factory=list)  # put behind the others
-    yaml: str = ""  # put below them in a file
 
 
 def value(option, wrong, *words, **changes):
@@ -159,7 +144,9 @@ def cut(path):
     path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
 
 
-class Refusals(Relocalising):
+class Refusals(Mistaken, Relocalising):
+    program, options, files, mistakes = "relocalize", RUN, FILES, MISTAKES
+
     def setUp(self):
         super().setUp()
         block(self.folder / "block.msh", regions=("matrix", "inclusion"))
@@ -226,33 +213,6 @@ class Refusals(Relocalising):
         self.variant("longer", "heterogeneous", "fields.h5")
         with h5py.File(self.variant("longer", "heterogeneous", "statistics.h5"), "r+") as file:
             file["statistics"].attrs["to"] = 1.1 * file["statistics"].attrs["to"]
-
-    def test_mistakes(self):
-        with ThreadPoolExecutor(AT_ONCE) as pool:
-            made = {name: pool.submit(self.make, mistake, self.folder / str(count), (count + RANKS) % 2 == 0)
-                    for count, (name, mistake) in enumerate(MISTAKES.items())}
-            for name, mistake in MISTAKES.items():
-                with self.subTest(name):
-                    outcome, before, after = made[name].result()
-                    self.assert_refused("relocalize", outcome, mistake.words, RANKS)
-                    self.assertEqual(before, after, "files were touched")
-        self.check_without_mistakes()
-
-    def make(self, mistake, folder, older_run):
-        """Spoils a run in its own folder: what was said, and what the folder held before and after.
-
-        An older run may be in the output folder or not: each mistake meets both, on one rank or on two.
-        """
-        shutil.copytree(self.material, folder)
-        (folder / "run.yaml").write_text(yaml_of(RUN) + mistake.yaml)
-        if older_run:
-            (folder / "out").mkdir()
-            for file in (*FILES, "notes.txt"):
-                (folder / "out" / file).write_text("of an older run")
-        before = snapshot(folder)
-        given = ["-options_file_yaml", "run.yaml"] if mistake.yaml else arguments_of({**RUN, **mistake.changes})
-        outcome = self.relocalize(*given, *mistake.arguments, ranks=RANKS, folder=folder)
-        return outcome, before, snapshot(folder)
 
     def check_without_mistakes(self):
         """What the mistakes are made of is sound."""
