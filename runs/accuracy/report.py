@@ -1,11 +1,9 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-import shutil
-from pathlib import Path
-
 from analysis.convergence import observed_order, orders_from_errors, richardson
-from analysis.table import markdown, read_csv, replace_between
-from analysis.work_precision import MEGA, Study, change, column, power_of
+from analysis.report import bullets, failures, folded, publish
+from analysis.table import markdown, read_csv
+from analysis.work_precision import MEGA, OPTIONS, Study, change, column, power_of
 
 GIGA = 1e-9
 MODULI = ("C11", "C12", "C66")
@@ -69,13 +67,6 @@ def orientation_lines(study, orientation):
                    f"{row['method']}).")
 
 
-def failure_lines(rows):
-    for row in rows:
-        if row["status"] != "ok":
-            run = f"{row['element']}, {row['size']} across, {row['solver']} solver, tolerance {row['rtol']}"
-            yield f"Failed: {run}: {row['reason']}"
-
-
 def table(study):
     header = ["element", "across", "solver", "tolerance", "unknowns", "iterations", "set-up [s]", "solves [s]",
               "in all [s]", "memory [MB]", "C11, C12, C66 [GPa]", "relative errors"]
@@ -90,23 +81,10 @@ def table(study):
 def report(rows, reference, orientation):
     study = Study(rows)
     lines = [*order_lines(study, reference), *cost_lines(study), *tolerance_lines(study),
-             *orientation_lines(study, orientation), *failure_lines(rows)]
-    return "\n" + "".join(f"- {line[0].upper()}{line[1:]}\n" for line in lines) + f"""
-<details>
-<summary>All runs</summary>
-
-{table(study)}
-</details>
-
-"""
+             *orientation_lines(study, orientation), *failures(rows, OPTIONS)]
+    return f"{bullets(lines)}\n{folded('All runs', table(study))}"
 
 
-def main(job):
-    text = report(read_csv(job.input.table), job.params.reference, job.params.orientation)
-    if job.params.readme:
-        replace_between(Path(job.params.readme) / "README.md", "report", text)
-        shutil.copy(job.input.picture, Path(job.params.readme) / "picture.png")
-    Path(job.output[0]).write_text(text)
-
-
-main(snakemake)  # noqa: F821
+job = snakemake  # noqa: F821
+publish(report(read_csv(job.input.table), job.params.reference, job.params.orientation), job.output[0],
+        job.params.readme, [job.input.picture])

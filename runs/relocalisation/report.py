@@ -1,11 +1,7 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-from pathlib import Path
-
-import yaml
-from PIL import Image
-
-from analysis.table import markdown, read_csv, replace_between
+from analysis.report import bullets, failures, folded, publish
+from analysis.table import markdown, read_csv
 
 OPTIONS = ("case", "seed", "macro", "tensors", "recovery", "strip")
 PARTS = ("all", "layer", "bulk", "matrix", "inclusion")
@@ -164,11 +160,6 @@ def time_lines(study):
                    f"{in_digits(min(errors))} and {in_digits(max(errors))}.")
 
 
-def failure_lines(study):
-    for row in study.failures:
-        yield f"Failed: {', '.join(f'{name} {row[name]}' for name in OPTIONS)}: {row['reason']}"
-
-
 def run_table(study):
     runs = [run for run in study.runs if study.found(run, "all")]
     header = [*OPTIONS, *(f"σ_yy {part}" for part in PARTS), "σ_xx layer", "time mean", "standard deviation", "ratio"]
@@ -180,12 +171,11 @@ def run_table(study):
 
 def report(rows):
     study = Study(rows)
-    lines = [*time_lines(study), *choice_lines(study), *failure_lines(study)]
-    return f"""
-Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous mesh:
+    lines = [*time_lines(study), *choice_lines(study), *failures(study.failures, OPTIONS)]
+    return f"""Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous mesh:
 
 {case_table(study)}
-{"".join(f"- {line}{chr(10)}" for line in lines)}
+{bullets(lines)}
 Other morphologies of the same composite; strongest frequency of friction, and standard deviation of σ_yy over time
 (root mean square over the block), of the heterogeneous and the homogeneous run:
 
@@ -203,29 +193,9 @@ homogeneous run and `relocalize`, its comparison included, to the heterogeneous 
 Averages and quantiles by area (last time) of the phases; `periodic` is a cell of another draw, tiled:
 
 {phase_table(study)}
-<details>
-<summary>All runs</summary>
-
-{run_table(study)}
-</details>
-
-"""
+{folded("All runs", run_table(study))}"""
 
 
-def keep_small(picture, copy):
-    """A copy with 256 colours, a third of the size."""
-    with Image.open(picture) as image:
-        image.convert("RGB").quantize(256).save(copy, optimize=True)
-
-
-def main(job):
-    text = report(read_csv(job.input.table))
-    failed = [path for path in job.input.pictures if yaml.safe_load(Path(path).read_text())["status"] != "ok"]
-    if job.params.readme:
-        replace_between(Path(job.params.readme) / "README.md", "report", text)
-        for folder in (Path(path).parent for path in job.params.shown if path not in failed):
-            keep_small(folder / "picture.png", Path(job.params.readme) / f"{folder.name}.png")
-    Path(job.output[0]).write_text(text + "".join(f"No picture: {path}\n" for path in failed))
-
-
-main(snakemake)  # noqa: F821
+job = snakemake  # noqa: F821
+publish(report(read_csv(job.input.table)), job.output[0], job.params.readme, job.params.shown,
+        others=job.input.pictures)

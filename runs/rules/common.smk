@@ -1,0 +1,33 @@
+# What the Snakefiles of all studies share: where things are, how a program is started, and that a failure is a result.
+# A study's Snakefile includes this first. Everything in its study.yaml can be overruled, with --config or --configfile.
+import os
+import shutil
+import sys
+from pathlib import Path
+
+TOP = Path(workflow.basedir).parents[1]
+sys.path.insert(0, str(TOP / "runs"))
+from analysis.commands import words
+from analysis.table import named_runs, run_name
+
+configfile: f"{workflow.basedir}/study.yaml"
+workdir: TOP
+
+OUT = config["output"]
+PROGRAMS = TOP / config["programs"]
+ATTEMPT = "/usr/bin/python3 -m analysis.attempt"
+
+os.environ.update(PYTHONPATH=str(TOP / "runs"), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+if os.getuid() == 0:  # as in a container
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                      OMPI_MCA_btl_vader_single_copy_mechanism="none")
+
+
+def outcome_of(kind, name):
+    """How `name`, a mesh, an effective material or a run, ended: a path."""
+    return f"{OUT}/{kind}/{name}/outcome.yaml"
+
+
+def on_ranks(ranks):
+    """What stands before a program that runs on so many ranks; study.yaml may name another launcher, as `srun -n`."""
+    return f"{config.get('mpirun', 'mpirun -n')} {ranks}" if int(ranks) > 1 else ""

@@ -1,0 +1,62 @@
+# Meshes, effective materials and `slide` runs of a study. Its Snakefile includes this after common.smk and says, in
+# functions, what each of them is made of:
+#   mesh_options(mesh)            dict of options of `morphology`
+#   effective_of(name)            pair: the mesh to homogenise and a dict of options of `homogenize`
+#   scene_of(name)                dict: `mesh`, `effective` (a name, or None), `options` of `slide`, and `ranks`
+# An entry of study.yaml, `limit`, says after how many seconds a program counts as failed.
+
+
+def before_slide(wanted):
+    scene = scene_of(wanted.name)
+    effective = {"effective": outcome_of("effective", scene["effective"])} if scene["effective"] else {}
+    return {"mesh": outcome_of("mesh", scene["mesh"]), **effective}
+
+
+def slide_options(wanted):
+    scene = scene_of(wanted.name)
+    material = {}
+    if scene["effective"]:
+        material = {"material_file": f"{OUT}/effective/{scene['effective']}/effective.yaml"}
+    return words({"mesh_file": f"{OUT}/mesh/{scene['mesh']}/mesh.msh", **material, **scene["options"]})
+
+
+rule mesh:
+    input:
+        program=PROGRAMS / "morphology"
+    output: OUT + "/mesh/{mesh}/outcome.yaml"
+    params:
+        options=lambda wanted: words(mesh_options(wanted.mesh))
+    shell:
+        ATTEMPT + " {output} --limit {config[limit]} -- {input.program} {params.options}"
+        " -output_folder $(dirname {output})"
+
+
+rule homogenize:
+    input:
+        mesh=lambda wanted: outcome_of("mesh", effective_of(wanted.effective)[0]),
+        program=PROGRAMS / "homogenize"
+    output: OUT + "/effective/{effective}/outcome.yaml"
+    params:
+        options=lambda wanted: words({"cell_estimate_error": False, **effective_of(wanted.effective)[1]})
+    shell:
+        ATTEMPT + " {output} --after {input.mesh} --limit {config[limit]} -- {input.program}"
+        " -mesh_file $(dirname {input.mesh})/mesh.msh {params.options} -output_folder $(dirname {output})"
+
+
+# On one rank unless the scene asks for more: a study has runs enough to keep every core busy.
+rule slide:
+    input:
+        unpack(before_slide),
+        program=PROGRAMS / "slide"
+    output: OUT + "/run/{name}/outcome.yaml"
+    params:
+        set=lambda run: " ".join(f"{name}={value}" for name, value in RUNS[run.name].items()),
+        after=lambda run: " ".join(before_slide(run).values()),
+        mpirun=lambda run: on_ranks(scene_of(run.name).get("ranks", 1)),
+        options=slide_options
+    threads: lambda run: int(scene_of(run.name).get("ranks", 1))
+    resources:
+        ranks=lambda run: int(scene_of(run.name).get("ranks", 1))
+    shell:
+        ATTEMPT + " {output} --after {params.after} --limit {config[limit]} --set {params.set} --"
+        " {params.mpirun} {input.program} {params.options} -output_folder $(dirname {output})"
