@@ -268,10 +268,11 @@ class Summary:
             return None
 
     def measured_boundary(self, history):
-        """The boundary where the load is measured: option history_boundary, else the first one recorded."""
-        name = self.options.get("history_boundary")
-        if name in history.boundary:
-            return name
+        """The boundary where the load is measured: option history_boundary, else `top` as `slide` takes it, else the
+        first one recorded."""
+        for name in (self.options.get("history_boundary"), "top"):
+            if name in history.boundary:
+                return name
         if not history.boundary:
             raise UnreadableRun("history.h5 records no boundary force: name one with -history_boundary.")
         return next(iter(history.boundary))

@@ -67,6 +67,15 @@ class CompleteRun(Folder):
         self.assertEqual(summary.measured_boundary(History(self.folder)), "top")
         self.assertEqual(summary.headline["friction_mean"], fake_run.FRICTION)
 
+    def test_load_is_measured_at_the_top_unless_told_otherwise(self):
+        with h5py.File(self.folder / "history.h5", "a") as file:
+            file.copy("boundary/top", "boundary/bottom")  # comes first
+        summary, history = Summary(self.folder), History(self.folder)
+        summary.options.pop("history_boundary")
+        self.assertEqual(summary.measured_boundary(history), "top")
+        summary.options["history_boundary"] = "bottom"
+        self.assertEqual(summary.measured_boundary(history), "bottom")
+
     def test_number_that_yaml_takes_for_text(self):
         (self.folder / "run.yaml").write_text("material_matrix_young: 30e9\n")
         self.assertEqual(Summary(self.folder).number("material_matrix_young"), 30e9)
