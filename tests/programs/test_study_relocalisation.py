@@ -39,7 +39,7 @@ class Relocalisation(studies.StudyCase):
         text = (self.out / "report.md").read_text()
         for words in ("| stable | 1 | 24 | subc | nodal | 0.001 |", "Transient, σ_yy all", "matrix at 2.5, 0.25 mm"):
             self.assertIn(words, text)
-        for name in ("stable", "transient"):
+        for name in ("stable", "transient", "histories"):
             self.assertGreater((self.out / "picture" / name / "picture.png").stat().st_size, 50000)
 
         before = self.written()
