@@ -29,7 +29,7 @@ std::vector<Phase> composite(double fraction) {
   return mixture(isotropic_stiffness(30, 0.3), isotropic_stiffness(80, 0.3), fraction);
 }
 
-/// Science, section 7: half and half, normal y, GPa.
+/// Exact: half and half, normal y, GPa.
 Eigen::Matrix3d laminate() {
   Eigen::Matrix3d c;
   c << 71.228771, 25.174825, 0, 25.174825, 58.741259, 0, 0, 0, 16.783217;
@@ -92,7 +92,7 @@ TEST(Bounds, ExcessSeesWhereOneFormIsNotAboveTheOther) {
   EXPECT_NEAR(excess(plane(3, 2), plane(1, 3)), -2.0 / 6, 1e-15);  // 2G: 4 − 6
 }
 
-/// Square and hexagonal arrays of discs, science section 7.
+/// Square and hexagonal arrays of discs, from a semi-analytic solution.
 TEST(Bounds, ArraysOfDiscsLieBetweenHashinAndShtrikman) {
   struct Array {
     double fraction, k, g;

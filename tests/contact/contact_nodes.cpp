@@ -40,7 +40,7 @@ struct Spy {
 
 }  // namespace
 
-/// Science, section 3: λ = max(0, −gap(û) m/c), so that gap_{n+1} = 0.
+/// λ = max(0, −gap(û) m/c), so that gap_{n+1} = 0.
 TEST(ContactNodes, ClosedNodeEndsOnTheSurface) {
   for (const double depth : {1e-12, 1e-6, 1e-3, 0.4}) {
     Node node;

@@ -39,7 +39,7 @@ double exact(double t) {
 
 }  // namespace
 
-/// Science, section 7: x(5) = 1.003683570, x(10) = 1.919520975, second order in Δt. Central difference shifts
+/// Exact solution: x(5) = 1.003683570, x(10) = 1.919520975, second order in Δt. Central difference shifts
 /// the phase by (ωΔt)²/24 a radian, that is 4e-9 at x(10) with Δt = 1e-4.
 TEST(LawAlone, MovesAMassOnASpring) {
   EXPECT_NEAR(displacement_at(5, 50000), 1.003683570, 1e-8);

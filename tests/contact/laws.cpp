@@ -143,7 +143,7 @@ TEST(RegularizedInstantaneous, RelaxesInSlip) {
   EXPECT_EQ(memory.pressure, 2);
 }
 
-/// Science, section 4: a memory that opposes sign(τ*) restarts from 0, since slip must oppose the traction.
+/// A memory that opposes sign(τ*) restarts from 0, since slip must oppose the traction.
 TEST(RegularizedInstantaneous, OpposingMemoryRestartsFromZero) {
   const Relaxation w = relaxation(0.1);
   FrictionMemory memory{0.8, 2};

@@ -64,7 +64,7 @@ Response response(double omega, double time, int steps) {
 
 }  // namespace
 
-/// Science, section 4. The weights are differences of numbers below 1, so a few units of 1 are allowed
+/// The weights are differences of numbers below 1, so a few units of 1 are allowed
 /// relative to the smallest of them that is formed as a difference (x > ½: 1 − g ≥ .21, g − e ≥ .18, then g −
 /// e ~ 1/x).
 TEST(Relaxation, AgreesWithExtendedPrecision) {
@@ -102,7 +102,7 @@ TEST(Relaxation, LimitsAreCoulombAndFrozen) {
   EXPECT_EQ(frozen.before, 0);
 }
 
-/// Science, section 7, law alone: gain 1/√(1+ω²T²) and lag atan ωT in slip. The only error is that of the
+/// The law alone: gain 1/√(1+ω²T²) and lag atan ωT in slip. The only error is that of the
 /// straight line through the pressure: relative (ωΔt)²/12 in amplitude, 8e-5 at 200 steps a period.
 TEST(Relaxation, FollowsAnOscillatingPressure) {
   for (const double time : {0.02, 0.3, 2.0}) {

@@ -74,7 +74,7 @@ double dense_frequency(const Mesh& mesh, const std::vector<Material>& materials)
 
 }  // namespace
 
-/// Science, section 2: the sharp value is a bound from above that is hardly larger than ω_max (Lanczos stops
+/// The sharp value is a bound from above that is hardly larger than ω_max (Lanczos stops
 /// at a residual of 1e-4 of ω², which is added, and the result is rounded up to 4 digits: at most 5e-5 +
 /// 1e-3); the element bound lies above. Neither depends on the number of ranks.
 TEST(LargestFrequency, AgreesWithDenseEigenvaluesOnAnyNumberOfRanks) {

@@ -80,7 +80,7 @@ Course course(const Model& model, const Scene& scene) {
 
 }  // namespace
 
-/// Science, section 2: the balance closes to rounding, here 1e-10 of all that flowed, whatever the scheme,
+/// The balance closes to rounding, here 1e-10 of all that flowed, whatever the scheme,
 /// the law and the damping; friction, damping and scheme only take.
 TEST(EnergyLedger, Closes) {
   const Mesh mesh = block_mesh(block());

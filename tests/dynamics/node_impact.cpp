@@ -35,7 +35,7 @@ struct FallingNode {
 
 }  // namespace
 
-/// Science, section 3: the position constraint makes the impact of a node plastic: its momentum m|v| passes
+/// The position constraint makes the impact of a node plastic: its momentum m|v| passes
 /// exactly, it never rebounds, and once it lies on the surface what velocity is left shrinks by (β2−½)/(β2+½)
 /// in each step.
 TEST(NodeImpact, IsPlastic) {

@@ -31,7 +31,7 @@ double spectral_radius(double omega, double step, double beta2, const Damping& d
 
 }  // namespace
 
-/// Science, section 2: stable iff aΔt + β2 Δt(Δt + 2b) ω² < 2, against the eigenvalues of the amplification
+/// Stable iff aΔt + β2 Δt(Δt + 2b) ω² < 2, against the eigenvalues of the amplification
 /// matrix. Two eigenvalues meet on the unit circle where nothing dissipates; there they are known to √ε ≈
 /// 1e-8 only.
 TEST(StableStep, IsWhereTheAmplificationMatrixLeavesTheUnitCircle) {
@@ -50,7 +50,7 @@ TEST(StableStep, IsWhereTheAmplificationMatrixLeavesTheUnitCircle) {
       }
 }
 
-/// Science, section 2: ω Δt at the limit, undamped and with ξ = b ω/2 = .1.
+/// ω Δt at the limit, undamped and with ξ = b ω/2 = .1.
 TEST(StableStep, HasTheQuotedValues) {
   constexpr double omega = 3;
   for (const double beta2 : {0.5, 0.8, 1.0})
@@ -60,7 +60,7 @@ TEST(StableStep, HasTheQuotedValues) {
   EXPECT_NEAR(omega * stable_step(omega, 0.8, damping), 1.3937, 5e-5);
 }
 
-/// Science, section 2: free oscillator, spectral radius √(1 − (β2−½)Ω²) while the roots are a complex pair.
+/// Free oscillator, spectral radius √(1 − (β2−½)Ω²) while the roots are a complex pair.
 TEST(FreeOscillator, DecaysAsTheSchemeSays) {
   constexpr double omega = 2;
   for (const double beta2 : {0.5, 0.6, 0.8, 1.0})

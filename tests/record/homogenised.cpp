@@ -19,7 +19,7 @@ Eigen::Matrix3d matrix(double xx, double yy, double xy, double shear) {
   return c;
 }
 
-/// Science, section 7: laminate of 30 and 80 GPa, half and half, normal y.
+/// Exact: laminate of 30 and 80 GPa, half and half, normal y.
 Eigen::Matrix3d laminate() { return matrix(71.228771e9, 58.741259e9, 25.174825e9, 16.783217e9); }
 
 CellSolution solution(CellBoundary boundary, const Eigen::Matrix3d& stiffness) {

@@ -86,7 +86,7 @@ Impact unit_impact(double phase, int elements) {
 
 }  // namespace
 
-/// Science, section 7, at .9 of the limit: p = ρ c_d v0 within 1e-3 (over the middle of the contact, where
+/// Exact wave, at .9 of the limit: p = ρ c_d v0 within 1e-3 (over the middle of the contact, where
 /// the ringing of the fronts has passed), last contact at 2L/c_d within 1 %, rebound .9947 v0 in place of v0.
 /// By the phase of the first contact in its step the rebound varies by 4e-4.
 TEST(Bars, ImpactHasThePressureAndDurationOfTheWave) {

@@ -78,7 +78,7 @@ Material anisotropic() {
 
 const Material soft = isotropic(30e9, 0.3, 2000), stiff = isotropic(80e9, 0.3, 4000);
 
-/// The case of science, section 7, turned by 90° where the normal is x.
+/// Layers along x, turned by 90° where the normal is x.
 Eigen::Matrix3d found_laminate(Shape shape, int axis) {
   const Mesh mesh = layered(shape, axis);
   return solve(mesh, two_materials(mesh, soft, stiff)).stiffness;
@@ -86,7 +86,7 @@ Eigen::Matrix3d found_laminate(Shape shape, int axis) {
 
 }  // namespace
 
-/// Science, section 7: 71.228771, 58.741259, 25.174825, 16.783217 GPa, given to 8 digits; exact to rounding.
+/// Exact: 71.228771, 58.741259, 25.174825, 16.783217 GPa, given to 8 digits; exact to rounding.
 TEST(Laminate, OfTwoIsotropicLayersIsExact) {
   for (int axis : {0, 1}) {
     const int along = 1 - axis;

@@ -27,7 +27,7 @@ struct Discs {
   std::vector<Phases> phases;
 };
 
-/// Science, section 7.
+/// Moduli from a semi-analytic solution, computed separately.
 const std::vector<Discs> arrays = {{"Square array of discs, f .2",
                                     Arrangement::square,
                                     0.2,

@@ -66,9 +66,10 @@ using Refinement = std::array<DiscCell, 3>;
 
 double order(const std::array<double, 3>& errors) { return 0.5 * std::log2(errors[0] / errors[2]); }
 
-/// Science, section 7. The mean of a cell is off by O(h) from the strain at a point of it; a polynomial of
-/// degree 2 through the means within 4h of the centre is off by O(h²), as the discretisation is. The bound is
-/// the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and a quarter of it at 128.
+/// Against the semi-analytic solution. The mean of a cell is off by O(h) from the strain at a point of it; a
+/// polynomial of degree 2 through the means within 4h of the centre is off by O(h²), as the discretisation
+/// is. The bound is the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and a quarter of it
+/// at 128.
 void check_centre(const Refinement& cells, const std::string& elements) {
   constexpr double bound = 5e-4;
   const Vector2 centre{0.5, 0.5};
@@ -94,7 +95,7 @@ void check_centre(const Refinement& cells, const std::string& elements) {
           format("%.4f", shear[5]), shown, source});
 }
 
-/// Science, section 7: σ_xx at θ = 0, the same on either side. Extrapolated from the inclusion's cells within
+/// Semi-analytic: σ_xx at θ = 0, the same on either side. Extrapolated from the inclusion's cells within
 /// R = 6h by a polynomial of degree 2; the field is smooth there, and the mean strain of the cells at the
 /// interface is off by O(h) times its gradient, 2.8 GPa per radius: h/r · 2.8 GPa = .06 GPa at 128 elements.
 void check_interface(const Refinement& cells, const std::string& elements) {

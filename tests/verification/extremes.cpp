@@ -105,7 +105,7 @@ TEST(Extremes, CoefficientOfFriction) {
   report({topic, "mu = 0: largest traction, Pa", "0", format("%g", frictionless), "", "Coulomb's law"});
 }
 
-/// Science, section 8: μ = 2 leaves 90 % open, said of a separate prototype without its mesh and window. Here
+/// A separate prototype left 90 % open at μ = 2; its mesh and window are not known. Here
 /// the leading corners jam: they stick, move with the surface, u = Vt, and the rest is open. That is what the
 /// equations of small strain say, far beyond their validity.
 TEST(Extremes, MostIsOpenAtACoefficientOfTwo) {

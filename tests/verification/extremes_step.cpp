@@ -1,4 +1,5 @@
-// Steps a thousandth below and above the limit: 2 > aΔt + β2 Δt(Δt + 2b)ω² (science, section 2).
+// Steps a thousandth below and above the limit: 2 > aΔt + β2 Δt(Δt + 2b)ω² (free oscillations of the β2
+// scheme).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -157,7 +158,7 @@ TEST_F(ExtremeSteps, AreRefusedAboveTheLimit) {
 }
 
 /// Supports and contact hold the highest mode down, so that a step above the limit of the free body survives
-/// 100 µs and looks plausible (science, section 8): nothing but the check of the step finds it.
+/// 100 µs and looks plausible: nothing but the check of the step finds it.
 TEST_F(ExtremeSteps, InContact) {
   const double frequency = exact_largest_frequency(model);
   Group group(topic);

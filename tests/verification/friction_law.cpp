@@ -82,7 +82,7 @@ TEST(FrictionLaw, FollowsAnOscillatingPressure) {
   }
 }
 
-/// Science, section 7: m = k = μp = 1 always in slip, T = .3, from rest and no traction. Second order, the
+/// Exact solution: m = k = μp = 1 always in slip, T = .3, from rest and no traction. Second order, the
 /// phase of central difference among it: Δt² t/24.
 TEST(FrictionLaw, MovesOneDegreeOfFreedom) {
   const Column column = column_with(regularized_laws[0], 5);

@@ -181,9 +181,9 @@ void expect_convergence(const std::string& law, double relaxation_time) {
 
 }  // namespace
 
-/// Science, section 8: h = .25, .125, .1 mm. Friction and amplitude are held to the bounds of the sustained
-/// instability (.5 and 1 %), fractions to the last printed digit, the frequency to .02 bins of 13.3 kHz, to
-/// which its interpolation is good.
+/// Averages of a separate serial prototype: h = .25, .125, .1 mm. Friction and amplitude are held to the
+/// bounds of the sustained instability (.5 and 1 %), fractions to the last printed digit, the frequency to
+/// .02 bins of 13.3 kHz, to which its interpolation is good.
 TEST(SceneRLimitCycle, AgreesWithTheReference) {
   std::vector<double> friction, frequency, velocity, stick, open;
   for (const double spacing : {0.25e-3, 0.125e-3, 0.1e-3}) {
@@ -202,9 +202,9 @@ TEST(SceneRLimitCycle, AgreesWithTheReference) {
 }
 
 /// The paper's claim (Figure 2) in numbers: without bulk damping Coulomb, and a relaxation shorter than the
-/// mesh resolves, do not converge under refinement; the regularised law does. The distances listed in
-/// science, section 8, for 30 ns (.28/.055/.036) belong to a friction update that holds p_n over the step,
-/// first order in Δt/T; with that update in place of the second-order one of section 4 they come out here as
+/// mesh resolves, do not converge under refinement; the regularised law does. The distances of a
+/// separate prototype for 30 ns (.28/.055/.036) belong to a friction update that holds p_n over the step,
+/// first order in Δt/T; with that update in place of the second-order one they come out here as
 /// well.
 TEST(UndampedRefinement, CoulombDoesNotConverge) { expect_no_convergence("Coulomb", 0); }
 TEST(UndampedRefinement, TooShortARelaxationDoesNotConverge) { expect_no_convergence("T = 10 ns", 10e-9); }

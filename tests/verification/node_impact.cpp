@@ -81,7 +81,7 @@ Landing landing(double beta2) {
 
 }  // namespace
 
-/// Science, section 3: the position constraint makes the impact of a node plastic. Its momentum m|v| passes
+/// The position constraint makes the impact of a node plastic. Its momentum m|v| passes
 /// to the surface exactly, it never rebounds, what velocity is left shrinks by (β2−½)/(β2+½) in each step,
 /// and all its kinetic energy is lost. Rounding of sums over 100 steps: 1e-13.
 TEST(NodeImpact, OfTheNodesOfABodyIsPlastic) {

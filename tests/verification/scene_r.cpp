@@ -47,7 +47,7 @@ void compare(const std::string& when, const Reading& found, const Reading& expec
 
 }  // namespace
 
-/// Science, section 8, before saturation; figures of a separate serial prototype, printed there with 10
+/// Before saturation; figures of a separate serial prototype, printed there with 10
 /// digits.
 TEST(SceneR, AgreesWithTheReferenceAtTenMicroseconds) {
   compare("h .25 mm, 10 us", scene_r_at(0.25e-3, 5e-9, 10e-6),

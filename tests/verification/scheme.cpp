@@ -132,7 +132,7 @@ std::array<double, 2> fitted_pair(const Eigen::VectorXd& u, int first, int last)
 
 }  // namespace
 
-/// Every mode of the body is the oscillator of science, section 2, and obeys its amplification polynomial.
+/// Every mode of the body is an oscillator and obeys its amplification polynomial.
 TEST(Scheme, EveryModeFollowsTheAmplificationPolynomial) {
   const SmallBody small;
   for (const Choice& choice : choices(small.highest())) {

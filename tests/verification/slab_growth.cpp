@@ -25,7 +25,7 @@ SlidingSlab orthotropic_slab(double c11, double c22, double c12, double time) {
   return slab;
 }
 
-/// Science, section 7: the laminate 30/80 GPa with layers along the surface, in units of its C66.
+/// The laminate 30/80 GPa with layers along the surface, in units of its C66.
 constexpr double along = 71.228771 / 16.783217, across = 58.741259 / 16.783217, mixed = 25.174825 / 16.783217;
 
 struct Listed {
@@ -56,7 +56,7 @@ Complex mode_found(const Case& c, int elements) {
 
 std::string text_of(Complex s) { return format("%.6f, %.6f", s.real(), s.imag()); }
 
-/// Science: .3 % in growth and .1 % in frequency at 128 elements a wavelength. Space and time are second
+/// Asked for: .3 % in growth and .1 % in frequency at 128 elements a wavelength. Space and time are second
 /// order, so half the elements give the order; with damping, which lags by half a step, it is not even.
 void verify(const char* topic, const Case& c, double least_order) {
   const Complex expected = scaled_mode(c.slab, c.near), fine = mode_found(c, c.elements),
@@ -167,7 +167,7 @@ TEST(SlabInstability, HasTheModeOfAnOrthotropicSlab) {
   verify(topic, {"C11, C22, C12 = 8, 3.5, 1.5 C66", orthotropic_slab(8, 3.5, 1.5, 0.2), {0.16, 2.49}}, 1.9);
 }
 
-/// Science, section 7: at grid scale the Coulomb problem has a mode of its own whose growth doubles with each
+/// At grid scale the Coulomb problem has a mode of its own whose growth doubles with each
 /// refinement; a half-space with μ < 1 has none.
 TEST(GridScaleMode, GrowsFasterOnEveryFinerMeshWithCoulomb) {
   std::array<double, 3> found{}, expected{};

@@ -7,7 +7,7 @@
 namespace slipscale::testing_support {
 
 /// How a slab is put on a mesh and in time: 2π m of its length, Q1 elements, square up to the rounding of the
-/// number of layers. The defaults are science's recipe for k = 1/m, c_s = 1 m/s.
+/// number of layers. The defaults suit growth rates for k = 1/m, c_s = 1 m/s.
 struct SlabMesh {
   int elements = 128;              ///< along the length
   double seed_wavelength = 0;      ///< m; 0: the length

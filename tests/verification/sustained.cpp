@@ -91,7 +91,7 @@ void expect_little_scatter(const char* topic, Strip strip) {
 
 }  // namespace
 
-/// Science, section 7: averages over t in [200, 400]; every node, every step.
+/// Against a separate serial prototype: averages over t in [200, 400]; every node, every step.
 TEST(Sustained, SlipSeparatedRegime) {
   const auto means = on_three_meshes(s1());
   expect(slip_separated, "mean friction T/N, nx = 32 / 64 / 128", {0.4444, 0.4468, 0.4469},

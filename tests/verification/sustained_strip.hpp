@@ -8,8 +8,8 @@
 
 namespace slipscale::testing_support {
 
-/// Sustained frictional instability of a homogeneous slab (science, section 7): a strip of length 2π,
-/// periodic in x, its top held, pressed with p0 = 1e-4 G. H = 2, c_s = ρ = G = 1, ν = .3, μ = .5.
+/// Sustained frictional instability of a homogeneous slab, as a separate serial prototype ran it: a strip of
+/// length 2π, periodic in x, its top held, pressed with p0 = 1e-4 G. H = 2, c_s = ρ = G = 1, ν = .3, μ = .5.
 struct Strip {
   int nx = 64;
   double speed = 7e-4;              ///< V/c_s
