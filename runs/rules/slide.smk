@@ -3,6 +3,7 @@
 #   mesh_options(mesh)            dict of options of `morphology`
 #   effective_of(name)            pair: the mesh to homogenise and a dict of options of `homogenize`
 #   scene_of(name)                dict: `mesh`, `effective` (a name, or None), `options` of `slide`, and `ranks`
+#                                 and, where there are some, `files` that the run reads besides
 # An entry of study.yaml, `limit`, says after how many seconds a program counts as failed.
 
 
@@ -47,6 +48,7 @@ rule homogenize:
 rule slide:
     input:
         unpack(before_slide),
+        files=lambda run: scene_of(run.name).get("files", []),
         program=PROGRAMS / "slide"
     output: OUT + "/run/{name}/outcome.yaml"
     params:
