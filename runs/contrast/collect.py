@@ -1,0 +1,30 @@
+"""Collects the study in one table: a row for each run, and for each level of an adaptation; run by the Snakefile."""
+
+from pathlib import Path
+
+from analysis.adapted import adapted_rows
+from analysis.distance import spectrum_distance
+from analysis.effective import SIX, read_effective
+from analysis.regime import costs, friction_spectrum, measures
+from analysis.table import collect, write_csv
+
+job = snakemake  # noqa: F821
+window = [float(time) for time in job.params.window]
+
+
+def result(folder):
+    """Of a homogeneous run the stiffness too, and the distance of its spectrum from that of its heterogeneous run."""
+    outcome = str(folder / "outcome.yaml")
+    found = {**measures(folder, window), **costs(folder)}
+    if effective := job.params.effective.get(outcome):
+        stiffness = read_effective(effective)
+        truth = Path(job.params.pairs[outcome]).parent
+        found.update({name: stiffness[name] for name in SIX})
+        if (truth / "summary.yaml").is_file():
+            found["spectrum_distance"] = spectrum_distance(friction_spectrum(folder, window),
+                                                           friction_spectrum(truth, window))
+    return found
+
+
+write_csv(job.output[0], [*collect(job.input.runs, result),
+                          *(row for path in job.input.adaptations for row in adapted_rows(path))])
