@@ -1,5 +1,7 @@
 """Options as words of a command line."""
 
+import shlex
+
 
 def word(value):
     """A value as the programs read it: lists with commas, yes and no as true and false."""
@@ -8,12 +10,22 @@ def word(value):
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def words(options):
-    """A dict of options as words; what is nested is joined with '_', as in a scene: {time: {end: 1}} is -time_end 1."""
-    said = []
+def flat(options):
+    """A dict of options without nesting, names joined with '_', as in a scene: {time: {end: 1}} is time_end 1."""
+    found = {}
     for name, value in options.items():
         if isinstance(value, dict):
-            said.append(words({f"{name}_{inner}": deeper for inner, deeper in value.items()}))
+            found.update(flat({f"{name}_{inner}": deeper for inner, deeper in value.items()}))
         else:
-            said.append(f"-{name} {word(value)}")
-    return " ".join(filter(None, said))
+            found[name] = value
+    return found
+
+
+def words(options):
+    """A dict of options, nested or not, as words for a shell."""
+    return " ".join(f"-{name} {shlex.quote(word(value))}" for name, value in flat(options).items())
+
+
+def settings(options):
+    """A dict of options as name=value for a shell."""
+    return " ".join(shlex.quote(f"{name}={word(value)}") for name, value in options.items())

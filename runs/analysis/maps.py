@@ -162,8 +162,8 @@ def draw(rows, values=None, over=None, where=None, units=None):
         groups.setdefault(tuple(row.get(name) for name in others), []).append(row)
     count = len(groups) * len(values)
     if count > MOST_PANELS:
-        raise UnreadableRun(f"{len(groups)} combinations of {', '.join(others)} make {count} panels and {MOST_PANELS} is "
-                            "the most: choose with --where and --value.")
+        raise UnreadableRun(f"{len(groups)} combinations of {', '.join(others)} make {count} panels and {MOST_PANELS} "
+                            "is the most: choose with --where and --value.")
     columns = len(values) if len(groups) > 1 or len(values) < 4 else -(-len(values) // 2)
     lines = -(-count // columns)
     figure, panels = plt.subplots(lines, columns, figsize=(5.2 * columns, 4.2 * lines), squeeze=False,

@@ -1,5 +1,6 @@
 # What the Snakefiles of all studies share: where things are, how a program is started, and that a failure is a result.
-# A study's Snakefile includes this first. Everything in its study.yaml can be overruled, with --config or --configfile.
+# A study's Snakefile includes this first. Everything in its study.yaml can be overruled, with --config or --configfile;
+# --config study=FILE takes another file in its place (relative to the top of the repository).
 import os
 import shutil
 import sys
@@ -7,17 +8,19 @@ from pathlib import Path
 
 TOP = Path(workflow.basedir).parents[1]
 sys.path.insert(0, str(TOP / "runs"))
-from analysis.commands import words
+from analysis.commands import settings, words
 from analysis.table import named_runs, run_name
 
-configfile: f"{workflow.basedir}/study.yaml"
+configfile: TOP / config.get("study", f"{workflow.basedir}/study.yaml")
 workdir: TOP
 
 OUT = config["output"]
 PROGRAMS = TOP / config["programs"]
-ATTEMPT = "/usr/bin/python3 -m analysis.attempt"
+ATTEMPT = f"{sys.executable} -m analysis.attempt"
 
-os.environ.update(PYTHONPATH=str(TOP / "runs"), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+# Unbound: several runs at a time would else all be bound to the same first cores.
+os.environ.update(PYTHONPATH=str(TOP / "runs"), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
+                  OMPI_MCA_hwloc_base_binding_policy="none")
 if os.getuid() == 0:  # as in a container
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                       OMPI_MCA_btl_vader_single_copy_mechanism="none")
@@ -31,3 +34,14 @@ def outcome_of(kind, name):
 def on_ranks(ranks):
     """What stands before a program that runs on so many ranks; study.yaml may name another launcher, as `srun -n`."""
     return f"{config.get('mpirun', 'mpirun -n')} {ranks}" if int(ranks) > 1 else ""
+
+
+def part_of(names, part):
+    """Of `names`, every n-th beginning with the k-th, for a `part` k/n: so long and short runs are spread evenly."""
+    k, n = map(int, str(part).split("/"))
+    return list(names)[k - 1::n]
+
+
+# One of n parts of the runs, --config part=k/n: for an array of jobs, each of which makes one.
+rule part:
+    input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config["part"])]

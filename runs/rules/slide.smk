@@ -2,23 +2,24 @@
 # functions, what each of them is made of:
 #   mesh_options(mesh)            dict of options of `morphology`
 #   effective_of(name)            pair: the mesh to homogenise and a dict of options of `homogenize`
-#   scene_of(name)                dict: `mesh`, `effective` (a name, or None), `options` of `slide`, and `ranks`
+#   scene_of(name)                dict: `mesh` (a name, or None where `options` has a mesh_file), `effective` (a name, or
+#                                 None), `options` of `slide`, and `ranks`
 #                                 and, where there are some, `files` that the run reads besides
 # An entry of study.yaml, `limit`, says after how many seconds a program counts as failed.
+
+minutes = -(-int(config["limit"]) // 60) + 2  # that a cluster should grant: a run that takes too long fails by itself
 
 
 def before_slide(wanted):
     scene = scene_of(wanted.name)
-    effective = {"effective": outcome_of("effective", scene["effective"])} if scene["effective"] else {}
-    return {"mesh": outcome_of("mesh", scene["mesh"]), **effective}
+    return {kind: outcome_of(kind, scene[kind]) for kind in ("mesh", "effective") if scene[kind]}
 
 
 def slide_options(wanted):
     scene = scene_of(wanted.name)
-    material = {}
-    if scene["effective"]:
-        material = {"material_file": f"{OUT}/effective/{scene['effective']}/effective.yaml"}
-    return words({"mesh_file": f"{OUT}/mesh/{scene['mesh']}/mesh.msh", **material, **scene["options"]})
+    mesh = {"mesh_file": f"{OUT}/mesh/{scene['mesh']}/mesh.msh"} if scene["mesh"] else {}
+    material = {"material_file": f"{OUT}/effective/{scene['effective']}/effective.yaml"} if scene["effective"] else {}
+    return words({**mesh, **material, **scene["options"]})
 
 
 rule mesh:
@@ -52,13 +53,14 @@ rule slide:
         program=PROGRAMS / "slide"
     output: OUT + "/run/{name}/outcome.yaml"
     params:
-        set=lambda run: " ".join(f"{name}={value}" for name, value in RUNS[run.name].items()),
+        set=lambda run: settings(RUNS[run.name]),
         after=lambda run: " ".join(before_slide(run).values()),
         mpirun=lambda run: on_ranks(scene_of(run.name).get("ranks", 1)),
         options=slide_options
     threads: lambda run: int(scene_of(run.name).get("ranks", 1))
     resources:
-        ranks=lambda run: int(scene_of(run.name).get("ranks", 1))
+        ranks=lambda run: int(scene_of(run.name).get("ranks", 1)),
+        runtime=minutes
     shell:
         ATTEMPT + " {output} --after {params.after} --limit {config[limit]} --set {params.set} --"
         " {params.mpirun} {input.program} {params.options} -output_folder $(dirname {output})"
