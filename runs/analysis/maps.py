@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from analysis.drawing import plt, write_picture
 from analysis.panels import BLUE
 from analysis.reading import UnreadableRun
-from analysis.scales import UNITS, Scale, Shades, options_of, values_of, varied
+from analysis.scales import UNITS, Scale, Shades, in_words, options_of, values_of, varied
 from analysis.attempt import number_or_text
 from analysis.table import read_csv
 
@@ -172,7 +172,7 @@ def draw(rows, values=None, over=None, where=None, units=None):
     shades = {value: Shades(rows, value, units) for value in values}
     spare = iter(panels.flat)
     for group, members in groups.items():
-        said = ", ".join(f"{name} {value}" for name, value in zip(others, group))
+        said = ", ".join(in_words(name, value, units) for name, value in zip(others, group))
         for value, panel in zip(values, spare):
             draw_panel(figure, panel, members, axes, value, shades[value], units)
             panel.set_title("\n".join(filter(None, (value if len(axes) > 1 else "", said))))

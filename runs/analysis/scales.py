@@ -13,7 +13,8 @@ PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "
 UNITS = {  # of measures and of the options that are varied most
     **{name: unit for name, (unit, _) in MEASURES.items()}, "surface_speed": "m/s", "friction_coefficient": "1",
     "friction_length": "m", "friction_time": "s", "friction_rate_reference": "m/s", "damping_stiffness": "s",
-    "damping_mass": "1/s", "time_step": "s", "wall_seconds": "s"}
+    "damping_mass": "1/s", "time_step": "s", "wall_seconds": "s", "size": "m", "diameter": "m", "block_width": "m",
+    "block_height": "m"}
 
 
 def is_number(value):
@@ -68,6 +69,13 @@ def scaled(name, values, units):
         return 1.0, f"{name} [{unit}]"
     size, prefix = next((entry for entry in PREFIXES if largest >= 0.999 * entry[0]), PREFIXES[-1])
     return 1 / size, f"{name} [{prefix}{unit}]"
+
+
+def in_words(name, value, units):
+    """An option and its value with its unit."""
+    factor, label = scaled(name, [value], units) if is_number(value) else (1.0, name)
+    unit = label[len(name):].strip(" []").removesuffix("1")
+    return f"{name} {factor * value:.4g} {unit}".rstrip() if is_number(value) else f"{name} {value}"
 
 
 class Scale:

@@ -51,6 +51,12 @@ class Scales(unittest.TestCase):
             self.assertAlmostEqual(found[0] / factor, 1)
             self.assertEqual(found[1], label)
 
+    def test_in_words(self):
+        units = {"size": "m", "mu": "1"}
+        for name, value, said in (("size", 1.25e-4, "size 125 µm"), ("mu", 0.5, "mu 0.5"), ("seed", 3, "seed 3"),
+                                  ("law", "coulomb", "law coulomb"), ("size", None, "size None")):
+            self.assertEqual(scales.in_words(name, value, units), said)
+
     def test_what_was_varied(self):
         rows = [{"h": h, "step": 20 * h, "seed": 1, "law": law, "status": "ok"} for h in (1, 2, 4) for law in "ab"]
         self.assertEqual(scales.options_of(rows), ["h", "step", "seed", "law"])

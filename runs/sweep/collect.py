@@ -1,0 +1,19 @@
+"""Collects the runs of the sweep in one table; run by the Snakefile."""
+
+from analysis.picture import choose_window
+from analysis.reading import History, UnreadableRun
+from analysis.regime import costs, measures
+from analysis.table import collect, write_csv
+
+
+def result(folder, window):
+    """What a run did in `window` (s), or by default in its last three eighths; a failure if that cannot be measured."""
+    try:
+        begin, end = choose_window(History(folder).time, window)
+        return {"window_begin": float(begin), "window_end": float(end), **measures(folder, (begin, end)), **costs(folder)}
+    except UnreadableRun as error:
+        return {"status": "failed", "reason": str(error)}
+
+
+write_csv(snakemake.output[0],  # noqa: F821
+          collect(snakemake.input.outcomes, lambda folder: result(folder, snakemake.params.window)))  # noqa: F821
