@@ -192,9 +192,10 @@ def products(values):
 
 
 def name_of(options):
-    """A folder's name for the options of a run; what a path or a shell could misread becomes '-'."""
-    said = ",".join(f"{name}={word(value)}" for name, value in options.items())
-    return re.sub(r"[^\w.,=+-]", "-", said) or "only"
+    """A folder's name for the options of a run, without what a path, a shell or snakemake's lists of wildcards could
+    misread."""
+    said = "-".join(f"{name}_{word(value)}" for name, value in options.items())
+    return re.sub(r"[^\w.+-]", "-", said) or "only"
 
 
 def named(runs):
@@ -203,6 +204,6 @@ def named(runs):
     for options in runs:
         name = name_of(options)
         if name in found and found[name] != options:
-            name += f",{len(found)}"
+            name += f"-{len(found)}"
         found[name] = options
     return found

@@ -74,7 +74,7 @@ def plan(config, manuals):
         for option, value in options.items():
             parts[program_of(option, manuals)][option] = value
         changes = recipe_options(parts["morphology"], recipes)
-        meshes = {recipe: ",".join(filter(None, [recipe, name_of(change) if change else ""]))
+        meshes = {recipe: "-".join(filter(None, [recipe, name_of(change) if change else ""]))
                   for recipe, change in changes.items()}
         found.meshes.update({meshes[recipe]: {**recipes[recipe], **change} for recipe, change in changes.items()})
         effective = None

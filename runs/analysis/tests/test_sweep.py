@@ -130,8 +130,8 @@ class Combinations(unittest.TestCase):
 
     def test_names(self):
         runs = [{"mu": 0.1, "v": [0, -1]}, {"mesh": "a/b c.msh"}, {"mesh": "a-b/c.msh"}, {"mu": 0.1, "v": [0, -1]}, {}]
-        self.assertEqual(sweep.named(runs), {"mu=0.1,v=0,-1": runs[0], "mesh=a-b-c.msh": runs[1],
-                                             "mesh=a-b-c.msh,2": runs[2], "only": {}})
+        self.assertEqual(sweep.named(runs), {"mu_0.1-v_0--1": runs[0], "mesh_a-b-c.msh": runs[1],
+                                             "mesh_a-b-c.msh-2": runs[2], "only": {}})
 
 
 if __name__ == "__main__":
