@@ -16,14 +16,16 @@ levels, all three by default:
 
 `search` adapts any other number with --parameter, as friction_coefficient or damping_stiffness. --set option=value
 changes the homogeneous model before: --set friction_rate=slip friction_rate_reference=0.2 --parameter friction_length
---start 1e-6.
+--start 1e-6. HOMOGENEOUS may be the FOLDER of an adaptation before, to adapt one number after the other.
 
 FOLDER/adapt.yaml has the measures of both runs, the value and the distances of each level, before and after, the scan,
 and one sentence of why a level failed. Trials that were run are kept in FOLDER/trials and not run again. Exit code 0:
-a level came nearer in its spectrum of friction; 1: none did, honestly; 2: what is asked for cannot be read.
+a level came nearer in its spectrum of friction, and nearer than a block that does not vibrate, whose distance is 1;
+1: none did, honestly; 2: what is asked for cannot be read.
 """
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -35,13 +37,14 @@ from analysis.attempt import number_or_text, write_whole
 from analysis.reading import History, UnreadableRun
 from analysis.regime import friction_spectrum, measures
 from analysis.surface_motion import surface_motion
-from analysis.trials import Trials, changed, compared, options_of, value_of
+from analysis.trials import Trials, changed, compared, options_of, spelled_out, value_of
 
 LEVELS = ("scaling", "frequency", "search")
 MATCHES = {"power": "power_into_body", "friction": "friction", "frequency": "frequency", "amplitude": "amplitude"}
 IN_TURN = ("power", "friction", "frequency")
 SHARES = ("stick", "slip", "open")
 TOLERANCE = 0.02  # of the target: what counts as equal
+AT_REST = 0.9  # distance of a spectrum from which on the model is hardly nearer than a block that does not vibrate, 1
 
 
 class Failure(Exception):
@@ -55,9 +58,10 @@ class Adaptation:
         self.window = tuple(asked.window or (0.5 * end, end))
         spectrum = friction_spectrum(heterogeneous, self.window)
         self.target = measures(heterogeneous, self.window)
-        self.own = compared(homogeneous, self.window, spectrum)
+        self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
         options = options_of(homogeneous)
-        self.options = changed(options, asked.set)
+        of_material = any(name.startswith("material_all_") for name in (asked.parameter, *asked.set))
+        self.options = changed(spelled_out(options) if of_material else options, asked.set)
         self.start = asked.start or value_of(self.options, asked.parameter)
         if not self.start > 0:
             raise UnreadableRun(f"{asked.parameter} is {self.start:g} in the homogeneous run, and a search needs a value "
@@ -67,7 +71,7 @@ class Adaptation:
 
     def trial(self, value):
         """What a run with this value of the parameter did; the homogeneous run is not repeated."""
-        if self.same and np.isclose(value, self.start, rtol=1e-9):
+        if self.same and math.isclose(value, self.start, rel_tol=1e-9):
             return {self.asked.parameter: self.start, "status": "ok", "reason": None, **self.own}
         return self.trials.run(**{self.asked.parameter: float(f"{value:.6g}")})
 
@@ -126,8 +130,8 @@ class Adaptation:
                               0.5 * TOLERANCE, self.asked.most)
         reached = self.trial(value)[quantity]
         if abs(reached - target) > TOLERANCE * abs(target):
-            raise Failure(f"{match} jumps over {target:.4g}: it is {ends[0]:.4g} at {bracket[0]:.4g}, {ends[1]:.4g} at "
-                          f"{bracket[1]:.4g} and no nearer than {reached:.4g}, at {value:.4g}", {"match": match})
+            raise Failure(f"{match} jumps: it is {ends[0]:.4g} at {bracket[0]:.4g} and {ends[1]:.4g} at {bracket[1]:.4g}, "
+                          f"and came no nearer to {target:.4g} than {reached:.4g}, at {value:.4g}", {"match": match})
         return {"value": value, "match": match, "matched": reached, "crossings": len(scan.brackets)}
 
     # --- what is said about them
@@ -142,21 +146,20 @@ class Adaptation:
         after = self.trial(found["value"])
         if after["status"] != "ok":
             return {"status": "failed", "reason": after["reason"], **found}
-        nearer = after["spectrum_distance"] < self.own["spectrum_distance"]
-        reason = None if nearer else (f"the spectrum is not nearer: {self.own['spectrum_distance']:.3g} before, "
-                                      f"{after['spectrum_distance']:.3g} with {found['value']:.4g}")
-        return {"status": "ok" if nearer else "failed", "reason": reason, **found, "after": self.distances(after)}
+        reason = not_adapted(self.own["spectrum_distance"], after["spectrum_distance"], found["value"])
+        return {"status": "failed" if reason else "ok", "reason": reason, **found, "after": self.distances(after)}
 
     def distances(self, row):
         """Of a homogeneous run from the heterogeneous one: of the spectrum, relative differences, those of shares."""
-        return {"spectrum_distance": row["spectrum_distance"],
+        return {"folder": row["folder"], "spectrum_distance": row["spectrum_distance"],
                 **{name: row[quantity] / self.target[quantity] - 1 if self.target[quantity] else None
                    for name, quantity in MATCHES.items()},
                 **{name: row[name] - self.target[name] for name in SHARES}}
 
     def report(self):
         levels = {name: self.level(name) for name in self.asked.levels}
-        tried = [row for row in self.trials.done if row["status"] == "ok"]
+        tried = [row for row in (*self.trials.done, *([self.trial(self.start)] if self.same else []))
+                 if row["status"] == "ok"]
         nearest = min(tried, key=lambda row: row["spectrum_distance"], default=None)
         good = [name for name, found in levels.items() if found["status"] == "ok"]
         best = min(good, key=lambda name: levels[name]["after"]["spectrum_distance"], default=None)
@@ -166,6 +169,27 @@ class Adaptation:
                 "nearest": nearest and {"value": nearest[self.asked.parameter], **self.distances(nearest)},
                 "trials": len(self.trials.done), "status": "ok" if best else "failed", "best": best,
                 "reason": None if best else "; ".join(f"{name}: {found['reason']}" for name, found in levels.items())}
+
+
+def not_adapted(before, after, value):
+    """Why a model whose spectrum was `before` and is `after` away does not count as adapted, or None."""
+    if after >= before:
+        return f"the spectrum is not nearer: {before:.3g} before, {after:.3g} with {value:.4g}"
+    if after >= AT_REST:
+        return (f"the spectrum is nearer, {before:.3g} before and {after:.3g} with {value:.4g}, but no nearer than that "
+                "of a block at rest, 1")
+    return None
+
+
+def adapted_before(folder):
+    """The run that an adaptation in `folder` left: of its levels' that which came nearest, else of its trials; `folder`
+    itself if there was none."""
+    file = Path(folder) / "adapt.yaml"
+    if not file.is_file():
+        return folder
+    found = yaml.safe_load(file.read_text())
+    ends = [level["after"] for level in found["levels"].values() if "after" in level] or [found["nearest"] or found["before"]]
+    return min(ends, key=lambda end: end["spectrum_distance"])["folder"]
 
 
 def said(scan):
@@ -197,7 +221,7 @@ def parsed(arguments):
     parser.add_argument("--start", type=float, help="middle of the scan; default: what the homogeneous run has")
     parser.add_argument("--factor", type=float, default=2.0, help="between values of the scan")
     parser.add_argument("--points", type=int, default=7, help="of the scan")
-    parser.add_argument("--most", type=int, default=6, help="trials after the scan")
+    parser.add_argument("--most", type=int, default=10, help="trials after the scan")
     asked = parser.parse_args(arguments)
     asked.set = {name: number_or_text(value) for name, _, value in (word.partition("=") for word in asked.set)}
     asked.levels = asked.levels or (LEVELS if asked.parameter == "friction_time" else LEVELS[-1:])
@@ -209,7 +233,7 @@ def parsed(arguments):
 def main(arguments=None):
     asked = parsed(arguments)
     try:
-        found = Adaptation(asked.heterogeneous, asked.homogeneous, asked).report()
+        found = Adaptation(asked.heterogeneous, adapted_before(asked.homogeneous), asked).report()
     except (UnreadableRun, OSError) as error:
         print(error, file=sys.stderr)
         return 2

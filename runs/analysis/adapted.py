@@ -13,7 +13,8 @@ def adapted_rows(outcome):
     """Rows of an outcome.yaml of analysis.adapt and the adapt.yaml beside it: one for each level, and one, `nearest`,
     for the trial whose spectrum came nearest whatever it matched; one row with the reason if there is no adapt.yaml.
 
-    Columns: the options, `level`, status and reason of the level, `value`, `match`, and COMPARED as before_ and after_.
+    Columns: the options, `level`, status and reason of the level, `value`, `match`, COMPARED as before_ and after_, and
+    the `folder` of the run after.
     """
     outcome = Path(outcome)
     ended = yaml.safe_load(outcome.read_text())
@@ -37,4 +38,4 @@ def adapted_rows(outcome):
 
 
 def after(found):
-    return {f"after_{name}": found[name] for name in COMPARED} if found else {}
+    return {**{f"after_{name}": found[name] for name in COMPARED}, "folder": found["folder"]} if found else {}

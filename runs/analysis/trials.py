@@ -11,7 +11,7 @@ import yaml
 from analysis.attempt import attempt
 from analysis.commands import words
 from analysis.distance import spectrum_distance
-from analysis.reading import Summary, UnreadableRun
+from analysis.reading import Summary, UnreadableRun, read_yaml
 from analysis.regime import friction_spectrum, measures
 
 LEFT_OUT = ("run", "output_folder", "fields_", "statistics_", "progress", "contact_every")
@@ -34,6 +34,15 @@ def changed(options, changes):
     gone = {other for name in changes for other in OVERRULES.get(name, ())}
     gone |= set(LAWS.get(changes.get("friction_rate"), ()))
     return {**{name: value for name, value in options.items() if name not in gone or name in changes}, **changes}
+
+
+def spelled_out(options):
+    """`options` with the stiffness and density that an effective.yaml gives to all regions in place of its name."""
+    if "material_file" not in options:
+        return options
+    found = read_yaml(Path(options["material_file"]))
+    return {**{name: value for name, value in options.items() if name != "material_file"},
+            "material_all_stiffness": found["stiffness"], "material_all_density": found["density"]}
 
 
 def value_of(options, parameter):
@@ -61,9 +70,9 @@ class Trials:
                         for key, value in changes.items())
         folder = self.output / name
         options = {**changed(self.options, changes), "contact_every": SELDOM, "output_folder": folder}
-        command = [*self.program, *words(options).split()]
+        command = [*self.program, *shlex.split(words(options))]
         outcome = self.outcome(folder, command) or attempt(folder / "outcome.yaml", command, changes)
-        found = {**changes, "status": outcome["status"], "reason": outcome["reason"]}
+        found = {**changes, "folder": str(folder), "status": outcome["status"], "reason": outcome["reason"]}
         if outcome["status"] == "ok":
             try:
                 found.update(compared(folder, self.window, self.reference))
