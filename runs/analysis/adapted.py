@@ -4,9 +4,13 @@ from pathlib import Path
 
 import yaml
 
+from analysis.morphologies import COMPOSITE
 from analysis.table import OUTCOME
 
 COMPARED = ("spectrum_distance", "power", "friction", "frequency", "amplitude", "stick", "slip", "open")
+
+WAYS = {"time": "T", "coefficient": "µ", "damping": "damping", "slip_rate": "slip-rate form", "density": "density",
+        "density_time": "density, then T"}
 
 
 def adapted_rows(outcome):
@@ -35,6 +39,24 @@ def adapted_rows(outcome):
         rows.append({**options, "level": "nearest", "status": "ok", "reason": None, **costs,
                      "value": nearest["value"], **before, **after(nearest)})
     return rows
+
+
+def cases_of(rows):
+    """{composite: {(way, level): row}} of adaptations that had a distance before; a composite is (young, diameter, size,
+    seed)."""
+    cases = {}
+    for row in rows:
+        if row["model"] == "adapted" and row.get("before_spectrum_distance") is not None:
+            case = tuple(row[name] for name in COMPOSITE)
+            cases.setdefault(case, {})[row["way"], row["level"]] = row
+    return cases
+
+
+def best_level(case, way):
+    """The level of this way whose spectrum came nearest, as a row; or None."""
+    rows = [row for (of, level), row in case.items() if of == way and level != "nearest"
+            and row["after_spectrum_distance"] is not None]
+    return min(rows, key=lambda row: row["after_spectrum_distance"], default=None)
 
 
 def after(found):

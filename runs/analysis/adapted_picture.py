@@ -13,44 +13,29 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
+from analysis.adapted import best_level, cases_of
 from analysis.drawing import write_picture
+from analysis.morphologies import COMPOSITE
 from analysis.panels import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from analysis.reading import UnreadableRun
 from analysis.regime import friction_spectrum
 from analysis.table import read_csv, run_name
 
-COMPOSITE = ("young", "diameter", "size", "seed")
 LEVELS = {"scaling": ("T: ωT kept", "<", SKY), "frequency": ("T: one frequency", ">", GREEN),
           "search": ("T: search", "D", VERMILION)}
 WAYS = {"time": ("T", "o", VERMILION), "coefficient": ("µ", "s", ORANGE), "damping": ("damping", "p", PURPLE),
-        "slip_rate": ("slip-rate form", "*", GREEN)}
-
-
-def cases_of(rows):
-    """{composite: {(way, level): row}} of adaptations that had a distance before."""
-    cases = {}
-    for row in rows:
-        if row["model"] == "adapted" and row.get("before_spectrum_distance") is not None:
-            case = tuple(row[name] for name in COMPOSITE)
-            cases.setdefault(case, {})[row["way"], row["level"]] = row
-    return cases
+        "slip_rate": ("slip-rate form", "*", GREEN), "density": ("density", "v", BLUE),
+        "density_time": ("density, then T", "^", BLUE)}
 
 
 def before_of(case):
     return next(iter(case.values()))["before_spectrum_distance"]
 
 
-def nearest_in_time(case):
-    """The level of T whose spectrum came nearest, as a row; or None."""
-    rows = [row for (way, level), row in case.items() if way == "time" and level in LEVELS
-            and row["after_spectrum_distance"] is not None]
-    return min(rows, key=lambda row: row["after_spectrum_distance"], default=None)
-
-
 def extremes(cases):
     """The composites whose T brought the largest and the smallest part of the distance."""
     part = {name: found["after_spectrum_distance"] / before_of(case) for name, case in cases.items()
-            if (found := nearest_in_time(case))}
+            if (found := best_level(case, "time"))}
     if not part:
         raise UnreadableRun("no relaxation time was adapted.")
     return min(part, key=part.get), max(part, key=part.get)
@@ -62,13 +47,13 @@ def title_of(composite):
 
 
 def draw_spectra(axes, out, composite, case, window):
-    row = nearest_in_time(case)
+    row = best_level(case, "time")
     of = dict(zip(COMPOSITE, composite))
     runs = {"composite": (out / "run" / run_name({**of, "model": "heterogeneous"}), BLUE),
             "homogenised": (out / "run" / run_name({**of, "model": "homogeneous"}), BLACK),
-            f"homogenised, T = {1e6 * row['value']:.3g} µs": (
-                out / "adapt" / run_name({**of, "way": "time"}) / "trials" / f"friction_time_{row['value']:.6g}",
-                VERMILION)}
+            f"homogenised, T = {1e6 * row['value']:.3g} µs": (row["folder"], VERMILION)}
+    if after := best_level(case, "density_time"):
+        runs[f"density adapted, T = {1e6 * after['value']:.3g} µs"] = after["folder"], ORANGE
     for name, (folder, colour) in runs.items():
         frequency, amplitude = friction_spectrum(folder, window)
         axes.semilogy(frequency / 1e3, np.maximum(amplitude, 1e-12), color=colour, linewidth=1.2, label=name)
@@ -88,24 +73,24 @@ def draw_distances(axes, cases):
             row = case.get(("time", level))
             if row and row["after_spectrum_distance"] is not None:
                 axes.plot(at + shift, row["after_spectrum_distance"], marker, color=colour, markersize=6)
-        for shift, (way, (_, marker, colour)) in zip((0.06, 0.16, 0.26, 0.36), WAYS.items()):
+        for shift, (way, (_, marker, colour)) in zip(np.linspace(0.06, 0.4, len(WAYS)), WAYS.items()):
             if row := case.get((way, "nearest")):
-                axes.plot(at + shift, row["after_spectrum_distance"], marker, color=colour, markersize=7,
+                axes.plot(at + shift, row["after_spectrum_distance"], marker, color=colour, markersize=6.5,
                           markerfacecolor="none")
     axes.plot([], [], "_", color=BLACK, markersize=14, markeredgewidth=2.2, label="before")
     for label, marker, colour in LEVELS.values():
         axes.plot([], [], marker, color=colour, label=label)
     for label, marker, colour in WAYS.values():
         axes.plot([], [], marker, color=colour, markerfacecolor="none", label=f"{label}: nearest tried")
-    axes.axhline(np.sqrt(2), color="0.5", linestyle=":", linewidth=1)
-    axes.annotate("unrelated", (0.002, np.sqrt(2)), xycoords=("axes fraction", "data"), fontsize="small", va="bottom",
-                  color="0.4")
+    axes.axhline(1, color="0.4", linestyle=":", linewidth=1.2)
+    axes.annotate("a block at rest", (0.003, 1), xycoords=("axes fraction", "data"), fontsize="small", va="bottom",
+                  color="0.3")
     axes.set_yscale("log")
     axes.set_xticks(range(len(order)), [f"{young:g}\nmorph. {seed:g}" for young, _, _, seed in order])
     axes.set(ylabel="distance of the spectrum [1]", xlim=(-0.6, len(order) - 0.4),
              xlabel="modulus of the inclusions [GPa] and morphology")
     axes.grid(axis="y", which="both", alpha=0.25)
-    axes.legend(ncol=4, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, 1.22), frameon=False)
+    axes.legend(ncol=6, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, 1.22), frameon=False)
 
 
 def draw(options):

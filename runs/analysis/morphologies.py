@@ -31,6 +31,14 @@ def spread(values):
     return float(np.std(values, ddof=1) / np.mean(values)) if len(values) > 1 else 0.0
 
 
+def rank_correlation(a, b):
+    """Spearman's, of two lists without equal values; nan for fewer than three."""
+    if len(a) < 3:
+        return float("nan")
+    ranks = [np.argsort(np.argsort(values)) for values in (a, b)]
+    return float(np.corrcoef(*ranks)[0, 1])
+
+
 def fold(values):
     """Largest over smallest."""
     return max(values) / min(values)

@@ -48,8 +48,8 @@ def draw(rows, block):
         diameters = [diameter for diameter, _ in groups]
         for diameter in dict.fromkeys(diameters):
             first, count = diameters.index(diameter), diameters.count(diameter)
-            axes.text(first + (count - 1) / 2, 1.02, f"block / disc = {block / diameter:g}", ha="center",
-                      transform=axes.get_xaxis_transform(), fontsize="small")
+            axes.text(first + (count - 1) / 2, 1.02, f"block/disc {block / diameter:g}", ha="center",
+                      transform=axes.get_xaxis_transform(), fontsize="x-small")
             if first:
                 axes.axvline(first - 0.5, color="0.6", linewidth=0.8)
     for marker, words in (("o", "morphology, sticks at times"), ("^", "morphology, never sticks"),

@@ -18,7 +18,7 @@ def result(folder):
     found = {**measures(folder, window), **costs(folder)}
     if effective := job.params.effective.get(outcome):
         stiffness = read_effective(effective)
-        truth = Path(job.params.pairs[outcome]).parent
+        truth = Path(job.params.truth[outcome]).parent
         found.update({name: stiffness[name] for name in SIX})
         if (truth / "summary.yaml").is_file():
             found["spectrum_distance"] = spectrum_distance(friction_spectrum(folder, window),
