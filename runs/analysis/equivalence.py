@@ -148,11 +148,18 @@ def verdict(composites, homogenised):
     return AMPLITUDE if judged.scatter <= ALIKE else UNLIKE
 
 
+def unsettled(run):
+    """By what factor, 1 or more, its amplitude grew or fell from the first to the second half of the window."""
+    ratio = run.values["settled"]
+    return max(ratio, 1 / ratio) if ratio > 0 else float("inf")
+
+
 def compared(composites, homogenised):
-    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; the modes in Hz as
-    text; and for each measure `_apart` (the typical homogenised block), `_limit` and `_within`, for a number also
+    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`, by what
+    factor the amplitude changed in the window where it changed most; the modes in Hz as text; and for each measure `_apart` (the typical homogenised block), `_limit` and `_within`, for a number also
     `_composites` (mean) and `_homogenised` (median)."""
-    row = {"verdict": verdict(composites, homogenised), "composites": len(composites), "homogenised": len(homogenised)}
+    row = {"verdict": verdict(composites, homogenised), "composites": len(composites), "homogenised": len(homogenised),
+           "settled": max(unsettled(run) for run in (*composites, *homogenised))}
     for name, runs in (("composite_modes", composites), ("homogenised_modes", homogenised)):
         row[name] = "; ".join(" + ".join(f"{mode:.0f}" for mode in modes(run.spectrum)) for run in runs)
     for measure in ("spectrum", "portrait", *SCALARS):

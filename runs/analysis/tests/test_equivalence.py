@@ -26,7 +26,7 @@ def spectrum(*lines):
 def run(*lines, amplitude=0.4, shift=0.0, **values):
     angle = np.linspace(0, 40 * np.pi, 4000)
     return Run(spectrum(*lines), np.array([np.cos(angle) + shift, np.sin(angle)]),
-               {**dict.fromkeys(SCALARS, 0.0), "amplitude": amplitude, **values})
+               {**dict.fromkeys(SCALARS, 0.0), "settled": 1.0, "amplitude": amplitude, **values})
 
 
 class Criterion(unittest.TestCase):
@@ -94,9 +94,10 @@ class Verdict(unittest.TestCase):
             self.assertEqual(verdict(composites, homogenised), wanted)
 
     def test_columns(self):
-        row = compared(self.composites, [run((3.5e5, 2.0))])
+        row = compared(self.composites, [run((3.5e5, 2.0), settled=0.5)])
         self.assertEqual((row["verdict"], row["composites"], row["homogenised"]), (AMPLITUDE, 3, 1))
         self.assertEqual(row["homogenised_modes"], "350000")
+        self.assertEqual(row["settled"], 2)  # halved or doubled, it is not at rest
         self.assertFalse(row["spectrum_within"])
         self.assertTrue(row["frequency_within"])
 
@@ -113,14 +114,14 @@ class Points(unittest.TestCase):
         cls.temporary.cleanup()
 
     def row(self, model, seed, mu, status="ok"):
-        return {"model": model, "seed": seed, "friction": mu, "window": "cycle", "status": status, "reason": None}
+        return {"model": model, "seed": seed, "coefficient": mu, "window": "cycle", "status": status, "reason": None}
 
     def test_a_point_is_what_both_models_were_run_at(self):
         rows = [self.row("composite", 1, 0.5), self.row("composite", 2, 0.5), self.row("homogenised", 1, 0.5),
                 self.row("composite", 1, 0.3), self.row("composite", 2, 0.3, "failed"), self.row("homogenised", 1, 0.3),
                 self.row("composite", 1, 0.1)]
         found = points(rows, [self.folder] * len(rows), {"cycle": (2.5e-4, 3.9e-4)})
-        self.assertEqual([(row["friction"], row["status"]) for row in found], [(0.5, "ok"), (0.3, "failed")])
+        self.assertEqual([(row["coefficient"], row["status"]) for row in found], [(0.5, "ok"), (0.3, "failed")])
         self.assertEqual(found[0]["verdict"], EQUIVALENT)
         self.assertAlmostEqual(found[0]["spectrum_apart"], 0, places=12)
         self.assertIn("ran to the end", found[1]["reason"])

@@ -1,0 +1,22 @@
+"""Collects the runs of the study, a row for each, and the points at which composites and homogenised blocks were both
+run, a row with the verdict for each; run by the Snakefile."""
+
+from pathlib import Path
+
+import yaml
+
+from analysis.equivalence import points
+from analysis.regime import costs, measures
+from analysis.table import collect, write_csv
+
+job = snakemake  # noqa: F821
+windows = {name: [float(end) for end in window] for name, window in job.params.windows.items()}
+
+
+def window_of(folder):
+    return windows[yaml.safe_load((folder / "outcome.yaml").read_text())["options"]["window"]]
+
+
+rows = collect(job.input.outcomes, lambda folder: {**measures(folder, window_of(folder)), **costs(folder)})
+write_csv(job.output.runs, rows)
+write_csv(job.output.points, points(rows, [Path(outcome).parent for outcome in job.input.outcomes], windows))

@@ -1,0 +1,131 @@
+"""Says in Markdown what the tables of the study hold, for the README; run by the Snakefile."""
+
+from collections import Counter
+
+from analysis.equivalence import ALIKE, FLOORS, SCALARS, VERDICTS
+from analysis.report import bullets, failures, folded, publish
+from analysis.scales import values_of
+from analysis.table import markdown, read_csv
+
+FORMS = {"friction": (1, ".3f"), "frequency": (1e-3, ".1f"), "amplitude": (1, ".3f"), "stick": (1, ".3f"),
+         "open": (1, ".3f"), "velocity": (1, ".2f"), "power_ratio": (1, ".3f")}
+HEADS = {"friction": "friction", "frequency": "frequency [kHz]", "amplitude": "its amplitude", "stick": "stick",
+         "open": "open", "velocity": "rms velocity of M [m/s]", "power_ratio": "power into body / drive"}
+PURE = ("friction", "frequency", "amplitude", "stick", "open", "power_ratio")  # the same in any units of load and speed
+POINT = ("block", "phases", "refine", "coefficient", "speed", "load", "memory", "window")
+
+
+def in_form(measure, value):
+    factor, form = FORMS[measure]
+    return f"{factor * value:{form}}"
+
+
+def marked(row, measure, text):
+    """What does not lie within the scatter stands out."""
+    return text if row[f"{measure}_within"] == "True" else f"**{text}**"
+
+
+def place(row, names):
+    return [row[name] for name in names]
+
+
+def described(row, names):
+    return ", ".join(f"{name} {row[name]}" for name in names)
+
+
+def figure_table(points, names):
+    """A line for each point: distances of the homogenised block / what the scatter allows; numbers of both models."""
+    lines = [[*place(row, names), row["verdict"],
+              *(marked(row, measure, f"{row[f'{measure}_apart']:.3f} / {row[f'{measure}_limit']:.3f}")
+                for measure in ("spectrum", "portrait")),
+              *(marked(row, measure, ", ".join(in_form(measure, row[f"{measure}_{kind}"])
+                                               for kind in ("composites", "homogenised"))
+                       + f" (± {in_form(measure, row[f'{measure}_limit'])})") for measure in SCALARS)] for row in points]
+    return markdown([*names, "verdict", "spectrum", "portrait", *(HEADS[measure] for measure in SCALARS)], lines)
+
+
+def map_table(points, names):
+    lines = [[*place(row, names), row["verdict"],
+              f"{row['spectrum_apart']:.2f} / {row['spectrum_limit']:.2f}",
+              *("; ".join(" + ".join(f"{float(mode) / 1e3:.0f}" for mode in run.split(" + ") if mode)
+                          for run in str(row[f"{kind}_modes"] or "").split("; ")) for kind in ("composite", "homogenised")),
+              *(", ".join(in_form(measure, row[f"{measure}_{kind}"]) for kind in ("composites", "homogenised"))
+                for measure in ("friction", "amplitude", "stick", "open", "power_ratio")), f"{row['settled']:.2f}"]
+             for row in points]
+    return markdown([*names, "verdict", "spectrum", "modes, composites [kHz]", "homogenised", "friction", "amplitude",
+                     "stick", "open", "power", "settled"], lines)
+
+
+def run_table(rows, names):
+    lines = [[*place(row, names), *(in_form(measure, row[measure]) for measure in SCALARS), row["regime"],
+              f"{row['settled']:.2f}", f"{row['wall_seconds']:.0f}"] for row in rows]
+    return markdown([*names, *(HEADS[measure] for measure in SCALARS), "regime", "settled", "seconds"], lines)
+
+
+def counts(points, names):
+    """How often each verdict was found, and where."""
+    for memory in values_of(points, "memory"):
+        members = [row for row in points if row["memory"] == memory]
+        for block in values_of(members, "block"):
+            found = [row for row in members if row["block"] == block]
+            number = Counter(row["verdict"] for row in found)
+            said = ", ".join(f"{number[name]} {name}" for name in VERDICTS if number[name])
+            yield f"Memory {memory}, block {block}, {len(found)} points: {said}."
+    moving = sum(row["settled"] > 1.25 for row in points)
+    if points:
+        yield f"At {moving} of {len(points)} points some run still grew or fell by more than a quarter in its window."
+
+
+def worst_of(one, other):
+    return max((abs(one[name] - other[name]) / max(abs(one[name]), 1e-300), name) for name in PURE)
+
+
+def proportional(rows):
+    """Pairs of runs that differ in speed and load by the same factor."""
+    names = ("model", "seed", *(name for name in POINT if name not in ("speed", "load")))
+    for k, one in enumerate(rows):
+        for other in rows[k + 1:]:
+            low, high = sorted((one, other), key=lambda row: row["speed"])
+            factor = high["speed"] / low["speed"]
+            if (factor > 1 and high["load"] == factor * low["load"] and low["memory"].startswith("T")
+                    and all(one[name] == other[name] for name in names)):
+                apart, name = worst_of(low, high)
+                yield (f"Speed {low['speed']} and load {low['load']} against speed {high['speed']} and load "
+                       f"{high['load']} (coefficient {low['coefficient']}, {low['model']} {low['seed']}): "
+                       f"{', '.join(PURE)} differ by at most {apart:.1e} of their size"
+                       f"{f' ({name})' if apart else ''}.")
+
+
+def same_point(row, point, names):
+    return all(row[name] == point[name] for name in names)
+
+
+def report(rows, points, figures):
+    """`figures` are points (dicts of options) by name."""
+    ran, judged = ([row for row in table if row["status"] == "ok"] for table in (rows, points))
+    but_mesh = [name for name in POINT if name != "refine"]
+    shown = [row for row in judged if any(same_point(row, point, but_mesh) for point in figures.values())]
+    mapped = [row for row in judged if row not in shown]
+    names = [name for name in ("refine", "coefficient", "speed", "load", "memory") if shown]
+    in_map = ["coefficient", "load", "speed", "memory", "block"]
+    runs = [row for row in ran if any(same_point(row, point, but_mesh) for point in figures.values())]
+    lines = [*counts(mapped, in_map), *proportional(ran), *failures(rows, ("model", "seed", *POINT)),
+             *(f"No verdict: {described(row, POINT)}: {row['reason']}" for row in points if row["status"] != "ok")]
+    floors = ", ".join(f"{name.replace('_', ' ')} {floor:g}" for name, floor in FLOORS.items())
+    return f"""Several morphologies and the homogenised block of each; `refine` halves the mesh. Distances are that of the typical (median)
+homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the others, which is what
+is allowed; numbers are the mean of the morphologies, the typical homogenised block, and in brackets how far apart they
+may be. Bold is what lies outside.
+
+{figure_table(shown, names)}
+{bullets(lines)}
+Allowed is at least (SI units): {floors}. Morphologies whose spectra scatter by more than {ALIKE} are not alike, and nothing
+is equivalent to them.
+
+{folded("All points of the maps (composites, homogenised)", map_table(mapped, in_map))}
+{folded("All runs of the figures", run_table(runs, ["model", "seed", *names]))}"""
+
+
+job = snakemake  # noqa: F821
+publish(report(read_csv(job.input.runs), read_csv(job.input.points), job.params.figures), job.output[0],
+        job.params.readme, job.input.pictures)
