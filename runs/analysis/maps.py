@@ -87,8 +87,13 @@ def write_numbers(axes, image, values, across, up, shades):
         for column, a in enumerate(across.at.values()):
             if np.isfinite(values[line, column]):
                 light = np.dot(image.cmap(image.norm(values[line, column]))[:3], (0.3, 0.59, 0.11)) > 0.5
-                axes.annotate(f"{values[line, column]:.3g}", (a, b), ha="center", va="center", fontsize="x-small",
+                axes.annotate(short(values[line, column]), (a, b), ha="center", va="center", fontsize="x-small",
                               color="black" if light else "white")
+
+
+def short(number):
+    """In no more than five letters, mostly."""
+    return f"{number:.3g}" if number == 0 or abs(number) >= 0.01 else f"{number:.0e}"
 
 
 def line_panel(axes, rows, x, value, label=None, colour=BLUE, shades=None, units=UNITS):
@@ -164,19 +169,23 @@ def draw(rows, values=None, over=None, where=None, units=None):
     if count > MOST_PANELS:
         raise UnreadableRun(f"{len(groups)} combinations of {', '.join(others)} make {count} panels and {MOST_PANELS} "
                             "is the most: choose with --where and --value.")
-    columns = len(values) if len(groups) > 1 or len(values) < 4 else -(-len(values) // 2)
+    beside = 1 < len(groups) <= 3  # a column for each group, a row for each value
+    if len(groups) == 1:
+        columns = len(values) if len(values) < 4 else -(-len(values) // 2)
+    else:
+        columns = len(groups) if beside else len(values)
     lines = -(-count // columns)
     figure, panels = plt.subplots(lines, columns, figsize=(5.2 * columns, 4.2 * lines), squeeze=False,
                                   layout="constrained")
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1)
     shades = {value: Shades(rows, value, units) for value in values}
-    spare = iter(panels.flat)
-    for group, members in groups.items():
-        said = ", ".join(in_words(name, value, units) for name, value in zip(others, group))
-        for value, panel in zip(values, spare):
-            draw_panel(figure, panel, members, axes, value, shades[value], units)
-            panel.set_title("\n".join(filter(None, (value if len(axes) > 1 else "", said))))
-    for panel in spare:
+    wanted = [(group, value) for group in groups for value in values]
+    wanted = sorted(wanted, key=lambda pair: values.index(pair[1])) if beside else wanted
+    for (group, value), panel in zip(wanted, panels.flat):
+        said = ", ".join(in_words(name, option, units) for name, option in zip(others, group))
+        draw_panel(figure, panel, groups[group], axes, value, shades[value], units)
+        panel.set_title("\n".join(filter(None, (value if len(axes) > 1 else "", said))))
+    for panel in panels.flat[count:]:
         panel.set_axis_off()
     return figure
 

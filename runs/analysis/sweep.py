@@ -1,4 +1,4 @@
-"""What a sweep runs: values spelled out, combined, and checked against the manuals of the programs before anything runs.
+"""What a sweep runs: values spelled out, combined, and checked against the programs' manuals before anything runs.
 
 Values of an option, in study.yaml or on a command line:
     0.1:0.1:0.8    from start by step to stop, which is included if it is met to rounding
@@ -22,7 +22,8 @@ from analysis.table import read_csv
 ROUNDING = Decimal("1e-9")  # of a step
 MOST_RUNS = 100000
 LIST = "numbers"  # how the manual's kind of an option that takes a list begins
-SET_BY_THE_STUDY = {"output_folder": "the study gives each run a folder", "options_file_yaml": "put its options in `scene`"}
+SET_BY_THE_STUDY = {"output_folder": "the study gives each run a folder",
+                    "options_file_yaml": "put its options in `scene`"}
 PETSC = ("log_view", "options_view", "options_left", "malloc_", "memory_view")
 
 
@@ -45,7 +46,7 @@ def spelled_out(text):
         if not all(number.is_finite() for number in (start, step, stop)):
             raise InvalidOperation
     except InvalidOperation:
-        raise Mistake(f"{text} is no range: it should be start:step:stop or start:*factor:stop, three numbers.") from None
+        raise Mistake(f"{text} is no range: it should be start:step:stop or start:*factor:stop, in numbers.") from None
     if words[1].startswith("*"):
         return multiplied(text, start, step, stop)
     if step == 0 and start != stop:
@@ -172,7 +173,7 @@ def combinations(sweep, rows, manuals):
         rows = read_csv(rows)
     rows = rows or []
     if not all(isinstance(row, dict) for row in rows):
-        raise Mistake("`list` should hold one set of options for each run, as - {surface_speed: 2, friction_time: 1e-6}.")
+        raise Mistake("`list` should hold one set of options for each run, as - {surface_speed: 2, time_beta2: 0.6}.")
     runs = [dict(zip(sweep, chosen)) for chosen in products(sweep)] if sweep or not rows else []
     runs += [{name: row[name] for name in row if row[name] is not None} for row in rows]
     for run in runs:

@@ -3,7 +3,7 @@
     runs/sweep/run.sh [-options_file_yaml SCENE.yaml] [--recipe BLOCK.yaml] -friction_coefficient 0.1:0.1:0.8
         -surface_speed 1,2,4 [-any_option value] [--output out/mine] [-- -c4]
 
-Options of slide and morphology with one minus; one that is given several values is varied, and every combination is run.
+Options of slide and morphology with one minus; those with several values are varied, and every combination is run.
   start:step:stop   a range; start:*factor:stop too          1,2,5   several values
   [0,-1],[0,-2]     values that are lists; of an option that takes a list, 0,-1 is one value
 What else the scene and the block are made of stands in study.yaml, or in the files given in its place. Behind -- stand
@@ -55,8 +55,8 @@ def read_options(path):
 
 
 def study_of(base, options, recipe=None, rows=None, window=None, output=None, ranks=None, manuals=None):
-    """The study.yaml, a dict: `base`, that of the folder, with the `options` (pairs of name and text) of a command line,
-    the file `recipe` of the block, the file `rows` of combinations, and so on in place of its own."""
+    """The study.yaml, a dict: `base`, that of the folder, with the `options` (pairs of name and text) of a command
+    line, the file `recipe` of the block, the file `rows` of combinations, and so on in place of its own."""
     files = [text for name, text in options if name == FILE]
     scene = {} if files else flat(base.get("scene") or {})
     for file in files:

@@ -1,7 +1,7 @@
 """From the study.yaml of a sweep to its meshes, effective materials and runs: which option goes to which program.
 
-The entries `mesh` (a recipe of morphology, or null where the scene names a mesh_file), `homogenize` (null, or `mesh`, the
-recipe of what is homogenised, and `options` of homogenize), `scene` (options of slide), `sweep` and `list`.
+The entries `mesh` (a recipe of morphology, or null where the scene names a mesh_file), `homogenize` (null, or `mesh`,
+the recipe of what is homogenised, and `options` of homogenize), `scene` (options of slide), `sweep` and `list`.
 """
 
 from dataclasses import dataclass, field
@@ -16,10 +16,12 @@ BLOCK, COMPOSITE = "block", "composite"
 
 @dataclass
 class Plan:
-    """`runs`: the options varied, by run; `scenes`: what rules/slide.smk asks of scene_of, by run; `meshes`: options of
-    morphology by mesh; `effectives`: pairs of mesh and options of homogenize by name."""
+    """`runs`: the options varied anywhere, by run; `usual`: what each of them is where it is not varied, or None;
+    `scenes`: what rules/slide.smk asks of scene_of, by run; `meshes`: options of morphology by mesh; `effectives`:
+    pairs of mesh and options of homogenize by name."""
 
-    runs: dict = field(default_factory=dict)
+    runs: dict
+    usual: dict
     scenes: dict = field(default_factory=dict)
     meshes: dict = field(default_factory=dict)
     effectives: dict = field(default_factory=dict)
@@ -68,7 +70,11 @@ def plan(config, manuals):
     if not config.get("homogenize"):
         manuals = {name: options for name, options in manuals.items() if name != "homogenize"}
     recipes, constants, scene = checked(config, manuals)
-    found = Plan(named(combinations(config.get("sweep"), config.get("list"), manuals)))
+    runs = combinations(config.get("sweep"), config.get("list"), manuals)
+    usual = {name: usual_value(name, [scene, constants, *recipes.values()]) for run in runs for name in run}
+    filled = {name: value for name, value in usual.items() if value is not None}
+    found = Plan(named([{name: {**filled, **run}[name] for name in usual if name in run or name in filled}
+                        for run in runs]), usual)
     for name, options in found.runs.items():
         parts = {program: {} for program in PROGRAMS}
         for option, value in options.items():
@@ -85,6 +91,12 @@ def plan(config, manuals):
         found.scenes[name] = {"mesh": meshes.get(BLOCK), "effective": effective,
                               **with_files({**scene, **parts["slide"]}, BLOCK in meshes)}
     return found
+
+
+def usual_value(name, places):
+    """The value of an option where it is not varied, or None: no place names it, or several differently."""
+    values = [options[name] for options in places if name in options]
+    return values[0] if values and all(value == values[0] for value in values) else None
 
 
 def with_files(options, meshed):

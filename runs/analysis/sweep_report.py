@@ -1,5 +1,7 @@
 """What the table of a sweep holds, in Markdown."""
 
+from statistics import median
+
 from analysis.report import bullets, failures, folded
 from analysis.scales import options_of, values_of, varied
 from analysis.table import markdown
@@ -51,7 +53,7 @@ def change_table(rows, option):
             if some:
                 moved = [abs(high["friction"] - low["friction"]) for low, high in some]
                 shift = [abs(high["frequency"] / low["frequency"] - 1) for low, high in some if low["frequency"]]
-                lines.append([f"{name} {value}", len(some), f"{sorted(moved)[len(moved) // 2]:.4f}", f"{max(moved):.4f}",
+                lines.append([f"{name} {value}", len(some), f"{median(moved):.4f}", f"{max(moved):.4f}",
                               sum(part > 0.1 for part in shift),
                               sum(low["regime"] != high["regime"] for low, high in some)])
     return markdown(["at", "pairs", "friction changes by: median", "most", "frequency by more than a tenth",

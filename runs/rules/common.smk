@@ -11,11 +11,15 @@ sys.path.insert(0, str(TOP / "runs"))
 from analysis.commands import settings, words
 from analysis.table import named_runs, run_name
 
-configfile: TOP / config.get("study", f"{workflow.basedir}/study.yaml")
+STUDY = TOP / config.get("study", f"{workflow.basedir}/study.yaml")
+config.clear()  # what overrules it is laid over it, so that a null there can take the place of a whole entry
+configfile: STUDY
 workdir: TOP
 
 OUT = config["output"]
 PROGRAMS = TOP / config["programs"]
+JOB = "{SLURM_ARRAY_TASK_ID}/{SLURM_ARRAY_TASK_COUNT}".format_map(
+    {"SLURM_ARRAY_TASK_ID": 1, "SLURM_ARRAY_TASK_COUNT": 1, **os.environ})
 ATTEMPT = f"{sys.executable} -m analysis.attempt"
 
 # Unbound: several runs at a time would else all be bound to the same first cores.
@@ -33,6 +37,8 @@ def outcome_of(kind, name):
 
 def on_ranks(ranks):
     """What stands before a program that runs on so many ranks; study.yaml may name another launcher, as `srun -n`."""
+    if "SLURM_ARRAY_TASK_ID" in os.environ and int(ranks) > int(os.environ.get("SLURM_NTASKS", 1)):
+        sys.exit(f"A run on {ranks} ranks needs a job of as many: array.sh -n {ranks}")
     return f"{config.get('mpirun', 'mpirun -n')} {ranks}" if int(ranks) > 1 else ""
 
 
@@ -42,6 +48,7 @@ def part_of(names, part):
     return list(names)[k - 1::n]
 
 
-# One of n parts of the runs, --config part=k/n: for an array of jobs, each of which makes one.
+# One of n parts of the runs, --config part=k/n or the part of a task in an array of Slurm's: for several snakemakes,
+# each of which makes one.
 rule part:
-    input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config["part"])]
+    input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config.get("part", JOB))]

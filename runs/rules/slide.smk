@@ -2,9 +2,9 @@
 # functions, what each of them is made of:
 #   mesh_options(mesh)            dict of options of `morphology`
 #   effective_of(name)            pair: the mesh to homogenise and a dict of options of `homogenize`
-#   scene_of(name)                dict: `mesh` (a name, or None where `options` has a mesh_file), `effective` (a name, or
-#                                 None), `options` of `slide`, and `ranks`
-#                                 and, where there are some, `files` that the run reads besides
+#   scene_of(name)                dict: `mesh` (a name, or None where `options` has a mesh_file), `effective` (a name,
+#                                 or None), `options` of `slide`, and, where there are some, `ranks` and `files` that
+#                                 the run reads besides
 # An entry of study.yaml, `limit`, says after how many seconds a program counts as failed.
 
 minutes = -(-int(config["limit"]) // 60) + 2  # that a cluster should grant: a run that takes too long fails by itself

@@ -10,10 +10,12 @@ def result(folder, window):
     """What a run did in `window` (s), or by default in its last three eighths; a failure if that cannot be measured."""
     try:
         begin, end = choose_window(History(folder).time, window)
-        return {"window_begin": float(begin), "window_end": float(end), **measures(folder, (begin, end)), **costs(folder)}
+        return {"window_begin": float(begin), "window_end": float(end), **measures(folder, (begin, end)),
+                **costs(folder)}
     except UnreadableRun as error:
         return {"status": "failed", "reason": str(error)}
 
 
-write_csv(snakemake.output[0],  # noqa: F821
-          collect(snakemake.input.outcomes, lambda folder: result(folder, snakemake.params.window)))  # noqa: F821
+job = snakemake  # noqa: F821
+rows = collect(job.input.outcomes, lambda folder: result(folder, job.params.window))
+write_csv(job.output[0], [{**job.params.usual, **row} for row in rows])

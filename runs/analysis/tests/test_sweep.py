@@ -22,7 +22,10 @@ friction
   -time_end  a number > 0 (s); required
   -time_step  auto or a number > 0 (s); default auto
 """),
-    "morphology": sweep.options_in("  -seed  a whole number >= 0; default 1\n  -fraction  a number above 0 (ratio); required\n"),
+    "morphology": sweep.options_in("""
+  -seed  a whole number >= 0; default 1
+  -fraction  a number above 0 (ratio); required
+"""),
 }
 
 
@@ -102,7 +105,8 @@ class Manuals(unittest.TestCase):
 
 class Combinations(unittest.TestCase):
     def test_the_last_varies_first(self):
-        runs = sweep.combinations({"friction_coefficient": "0.1:0.1:0.2", "seed": [1, 2], "time_end": None}, [], MANUALS)
+        wanted = {"friction_coefficient": "0.1:0.1:0.2", "seed": [1, 2], "time_end": None}
+        runs = sweep.combinations(wanted, [], MANUALS)
         self.assertEqual(runs, [{"friction_coefficient": mu, "seed": seed} for mu in (0.1, 0.2) for seed in (1, 2)])
 
     def test_rows_come_after_and_may_lack_options(self):
@@ -124,7 +128,7 @@ class Combinations(unittest.TestCase):
     def test_mistakes(self):
         for wanted, rows, sentence in (({"sed": 1}, [], "-sed; is -seed meant"), ({"seed": []}, [], "over no value"),
                                        ({}, [{"sed": 1}], "-sed"), ({}, [3], "one set of options"),
-                                       ({"seed": "1:1:1000", "fraction": "1:1:1000"}, [], "more than 100000 runs")):
+                                       ({"seed": "1:1:1000", "fraction": "1:1:1000"}, [], "more than 100000")):
             with self.assertRaisesRegex(Mistake, sentence):
                 sweep.combinations(wanted, rows, MANUALS)
 

@@ -9,6 +9,6 @@ if [ -z "$state" ]; then
 fi
 case $state in
   COMPLETED) echo success ;;
-  '' | PENDING | CONFIGURING | RUNNING | SUSPENDED | COMPLETING | REQUEUED | REQUEUE_HOLD | RESIZING | STOPPED) echo running ;;
+  '' | PENDING | CONFIGURING | RUNNING | SUSPENDED | COMPLETING | REQUEUE* | RESIZING | STOPPED) echo running ;;
   *) echo failed ;;
 esac

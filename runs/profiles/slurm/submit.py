@@ -13,8 +13,8 @@ def sbatch(script):
     job = json.loads(re.search(r"^# properties = (.*)$", Path(script).read_text(), re.MULTILINE)[1])
     needs, ranks = job["resources"], int(job["resources"].get("ranks", 1))
     name = "-".join([job.get("rule") or job.get("groupid", "group"), *map(str, job.get("wildcards", {}).values())])
-    words = ["sbatch", "--parsable", f"--job-name={name}", f"--ntasks={ranks}",
-             f"--cpus-per-task={max(1, job.get('threads', 1) // ranks)}", f"--output={Path('out/slurm').resolve()}/%x-%j.log"]
+    words = ["sbatch", "--parsable", f"--job-name={name}", f"--output={Path('out/slurm').resolve()}/%x-%j.log",
+             f"--ntasks={ranks}", f"--cpus-per-task={max(1, job.get('threads', 1) // ranks)}"]
     for option, resource in (("time", "runtime"), ("mem", "mem_mb")):
         words += [f"--{option}={needs[resource]}"] if resource in needs else []
     return [*words, *(["--exclusive"] if needs.get("exclusive") else []), script]

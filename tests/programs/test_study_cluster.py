@@ -1,0 +1,167 @@
+"""Studies on a cluster, with a stand-in for Slurm that runs each job at once: the profile, an array of jobs, what they
+ask for, and how they go on after a job was lost."""
+
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import studies
+
+PROFILE = studies.RUNS / "profiles" / "slurm"
+
+# Runs a job as Slurm would and prints its number. A job whose words hold what `lost` says is lost without a trace; one
+# that depends on a lost one is not run.
+SBATCH = r'''#!/usr/bin/python3
+import json, os, subprocess, sys
+from pathlib import Path
+
+here = Path(__file__).parent
+options = dict(word[2:].partition("=")[::2] for word in sys.argv[1:] if word.startswith("--"))
+script = options["wrap"] if "wrap" in options else sys.argv[-1]
+number = len(list(here.glob("job-*.json"))) + 1
+lost = (here / "lost").read_text().split() if (here / "lost").exists() else []
+states = []
+before = [here / f"job-{word}.json" for word in options.get("dependency", "").split(":")[1:]]
+never = any(json.loads(path.read_text())["state"] != "COMPLETED" for path in before)
+first, last = map(int, options.get("array", "1-1").split("-"))
+for task in range(first, last + 1):
+    words = {"SLURM_NTASKS": options["ntasks"]} if "ntasks" in options else {}
+    if "array" in options:
+        words.update(SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT=str(last))
+    name = f"{options['job-name']}{task if 'array' in options else ''}"
+    if never or name in lost:
+        states.append("CANCELLED" if never else "NODE_FAIL")
+        lost = [other for other in lost if other != name]
+    else:
+        with (here / f"job-{number}-{task}.log").open("w") as log:
+            done = subprocess.run(["sh", "-c", script] if "wrap" in options else ["sh", script], stdout=log, stderr=log,
+                                  stdin=subprocess.DEVNULL, env={**os.environ, **words})
+        states.append("FAILED" if done.returncode else "COMPLETED")
+(here / "lost").write_text(" ".join(lost))
+state = next((state for state in states if state != "COMPLETED"), "COMPLETED")
+(here / f"job-{number}.json").write_text(json.dumps({"options": options, "state": state, "script": script}))
+print(number)
+'''
+
+SCONTROL = r'''#!/bin/sh
+file=$(dirname "$0")/job-$3.json
+[ -f "$file" ] || { echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1; }
+sed 's/.*"state": "\([A-Z_]*\)".*/   JobState=\1 Reason=None/' "$file"
+'''
+
+SWEEP = {"friction_coefficient": [0.1, 0.2, -0.5], "surface_speed": 2, "size": 1e-3}
+
+
+class Cluster(studies.StudyCase):
+    study = "sweep"
+
+    def setUp(self):
+        super().setUp()
+        self.slurm = self.folder / "slurm"
+        self.slurm.mkdir()
+        for name, text in (("sbatch", SBATCH), ("scontrol", SCONTROL)):
+            (self.slurm / name).write_text(text)
+            (self.slurm / name).chmod(0o755)
+
+    def environment(self):
+        kept = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM_", "SBATCH_"))}
+        # With CI snakemake asks for a job's state every second, not every ten.
+        return {**kept, "CI": "true", "HOME": str(self.folder), "PATH": f"{self.slurm}:{os.environ['PATH']}"}
+
+    def config(self, **changes):
+        self.command(sweep=SWEEP, scene={"time": {"end": 40e-6}, "history": {"every": 2}}, **changes)
+        return ["--directory", self.folder, "--configfile", self.folder / "config.yaml"]
+
+    def start(self, *words):
+        return subprocess.run(list(map(str, words)), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=studies.SECONDS, env=self.environment())
+
+    def jobs(self, name):
+        """What the jobs of this name (a pattern) asked for, in order."""
+        files = sorted(self.slurm.glob("job-*.json"), key=lambda file: int(re.search(r"\d+", file.name)[0]))
+        jobs = [json.loads(file.read_text()) for file in files if "-" not in file.stem[4:]]
+        return [job for job in jobs if re.match(name, job["options"]["job-name"])]
+
+    def statuses(self):
+        return [row["status"] for row in self.table()]
+
+    def logs(self):
+        return "\n".join(log.read_text()[-3000:] for log in self.slurm.glob("*.log"))
+
+    def test_a_job_for_each_run(self):
+        name = "slide-friction_coefficient_0.2-surface_speed_2-size_0.001"
+        (self.slurm / "lost").write_text(name)
+        done = self.start("snakemake", "--profile", PROFILE, "--latency-wait", 1, "--snakefile", self.snakefile,
+                          *self.config(ranks=2, limit=90))
+        self.assertEqual(done.returncode, 0, done.stdout + self.logs())
+        self.assertEqual(self.statuses(), ["ok", "ok", "failed"])
+        self.assertEqual([job["state"] for job in self.jobs(name)], ["NODE_FAIL", "COMPLETED"])  # sent once more
+        self.assertEqual(len(self.jobs("slide")), 4)  # a program that fails is a result
+        asked = self.jobs("slide")[0]["options"]
+        self.assertEqual([asked[option] for option in ("ntasks", "cpus-per-task", "time", "mem")],
+                         ["2", "1", "4", "2000"])
+        self.assertEqual(self.jobs("mesh")[0]["options"]["ntasks"], "1")
+        outcome = next((self.out / "run").glob("*0.2*/outcome.yaml")).read_text()
+        self.assertIn("command: mpirun -n 2 ", outcome)
+        self.assertTrue((self.folder / "out" / "slurm").is_dir())
+
+    def test_an_array_of_jobs(self):
+        array = (PROFILE / "array.sh", "-n", 2, "-t", 30, 2, self.snakefile, *self.config())
+        (self.slurm / "lost").write_text("sweep-runs2")
+        done = self.start(*array)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual([job["state"] for job in self.jobs("sweep-")], ["COMPLETED", "NODE_FAIL", "CANCELLED"],
+                         self.logs())
+        runs = self.jobs("sweep-runs")[0]["options"]
+        self.assertEqual([runs[option] for option in ("array", "ntasks", "time", "dependency")],
+                         ["1-2", "2", "30", "afterok:1"])
+        self.assertFalse((self.out / "table.csv").exists())
+        before = self.written()
+        self.assertEqual(len(before), 1 + 3 - 1)  # the mesh, and the runs without the second task's
+
+        done = self.start(*array)
+        self.assertEqual([job["state"] for job in self.jobs("sweep-")][3:], ["COMPLETED"] * 3, self.logs())
+        self.assertEqual(self.run_again(before), {"run/friction_coefficient_0.2-surface_speed_2-size_0.001"})
+        self.assertEqual(self.statuses(), ["ok", "ok", "failed"])
+        self.assertTrue((self.out / "report.md").exists())
+
+    def test_an_array_too_small_for_the_ranks_of_a_run(self):
+        self.start(PROFILE / "array.sh", 2, self.snakefile, *self.config(ranks=2))
+        self.assertEqual([job["state"] for job in self.jobs("sweep-")], ["COMPLETED", "FAILED", "CANCELLED"])
+        self.assertIn("array.sh -n 2", self.logs())
+        self.assertFalse(list(self.out.glob("run/*/outcome.yaml")))
+
+    def test_words_of_an_array(self):
+        done = self.start(PROFILE / "array.sh", 2)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("TASKS SNAKEFILE", done.stdout)
+
+
+class Status(unittest.TestCase):
+    """What snakemake is told of a job, by accounting or else by the controller."""
+
+    def said(self, state, known_to):
+        with tempfile.TemporaryDirectory() as folder:
+            shows = {"sacct": f"echo {state}", "scontrol": f"echo '   JobState={state} Reason=None'"}
+            for name, command in shows.items():
+                (Path(folder) / name).write_text(f"#!/bin/sh\n{command if name == known_to else 'exit 1'}\n")
+                (Path(folder) / name).chmod(0o755)
+            return subprocess.run([PROFILE / "status.sh", "7"], capture_output=True, text=True, timeout=60,
+                                  env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}).stdout.strip()
+
+    def test_states(self):
+        for state, expected in (("COMPLETED", "success"), ("RUNNING", "running"), ("PENDING", "running"),
+                                ("REQUEUED", "running"), ("NODE_FAIL", "failed"), ("TIMEOUT", "failed"),
+                                ("OUT_OF_MEMORY", "failed"), ("CANCELLED by 0", "failed")):
+            for program in ("sacct", "scontrol"):
+                self.assertEqual(self.said(state, program), expected, (state, program))
+        self.assertEqual(self.said("", "nobody"), "running")  # the controller does not answer
+        self.assertEqual(self.said("slurm_load_jobs error: Invalid job id specified", "scontrol"), "failed")
+
+
+if __name__ == "__main__":
+    studies.main()
