@@ -56,7 +56,7 @@ def draw(options):
     values = list(dict.fromkeys(row[options.panel] for row in rows)) if options.panel else [None]
     figure, panels = plt.subplots(1, len(values), figsize=(6 * len(values) + 0.5, 6), squeeze=False,
                                   layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.1)
+    figure.get_layout_engine().set(w_pad=0.1, rect=(0, 0.1, 1, 0.9))
     shades = shades_of(rows)
     for axes, value in zip(panels[0], values):
         members = [row for row in rows if not options.panel or row[options.panel] == value]
@@ -67,7 +67,7 @@ def draw(options):
         write_cells(axes, members, x, y, units)
         axes.set_title(f"{options.panel} {value}" if options.panel else "")
         axes.get_legend().remove()
-    figure.legend(handles=handles(shades, rows), loc="outside lower center", frameon=False, ncols=4)
+    figure.legend(handles=handles(shades, rows), loc="lower center", frameon=False, ncols=4)
     figure.suptitle("Strongest frequency composite/homogenised [kHz]; distance of spectra found/allowed; * not settled", fontsize=11)
     return figure
 

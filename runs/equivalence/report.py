@@ -29,19 +29,19 @@ def place(row, names):
     return [row[name] for name in names]
 
 
-def described(row, names):
-    return ", ".join(f"{name} {row[name]}" for name in names)
-
-
-def figure_table(points, names):
-    """A line for each point: distances of the homogenised block / what the scatter allows; numbers of both models."""
-    lines = [[*place(row, names), row["verdict"],
-              *(marked(row, measure, f"{row[f'{measure}_apart']:.3f} / {row[f'{measure}_limit']:.3f}")
-                for measure in ("spectrum", "portrait")),
-              *(marked(row, measure, ", ".join(in_form(measure, row[f"{measure}_{kind}"])
-                                               for kind in ("composites", "homogenised"))
-                       + f" (± {in_form(measure, row[f'{measure}_limit'])})") for measure in SCALARS)] for row in points]
-    return markdown([*names, "verdict", "spectrum", "portrait", *(HEADS[measure] for measure in SCALARS)], lines)
+def figure_table(points):
+    """A column for each of `points`, rows by heading; distances of the homogenised block / what the scatter allows, and
+    numbers of both models."""
+    lines = [["verdict", *(row["verdict"] for row in points.values())]]
+    for measure in ("spectrum", "portrait"):
+        lines.append([f"distance of {measure}", *(
+            marked(row, measure, f"{row[f'{measure}_apart']:.3f} / {row[f'{measure}_limit']:.3f}")
+            for row in points.values())])
+    for measure in SCALARS:
+        lines.append([HEADS[measure], *(marked(row, measure, " → ".join(
+            in_form(measure, row[f"{measure}_{kind}"]) for kind in ("composites", "homogenised"))
+            + f" (± {in_form(measure, row[f'{measure}_limit'])})") for row in points.values())])
+    return markdown(["", *points], lines)
 
 
 def map_table(points, names):
@@ -62,8 +62,8 @@ def run_table(rows, names):
     return markdown([*names, *(HEADS[measure] for measure in SCALARS), "regime", "settled", "seconds"], lines)
 
 
-def counts(points, names):
-    """How often each verdict was found, and where."""
+def counts(points):
+    """How often each verdict was found."""
     for memory in values_of(points, "memory"):
         members = [row for row in points if row["memory"] == memory]
         for block in values_of(members, "block"):
@@ -104,20 +104,21 @@ def report(rows, points, figures):
     """`figures` are points (dicts of options) by name."""
     ran, judged = ([row for row in table if row["status"] == "ok"] for table in (rows, points))
     but_mesh = [name for name in POINT if name != "refine"]
-    shown = [row for row in judged if any(same_point(row, point, but_mesh) for point in figures.values())]
-    mapped = [row for row in judged if row not in shown]
-    names = [name for name in ("refine", "coefficient", "speed", "load", "memory") if shown]
+    shown = {f"{name}, refine {row['refine']}": row for name, point in figures.items() for row in judged
+             if same_point(row, point, but_mesh)}
+    mapped = [row for row in judged if row not in shown.values()]
+    names = ["refine", "coefficient", "speed", "load", "memory"]
     in_map = ["coefficient", "load", "speed", "memory", "block"]
     runs = [row for row in ran if any(same_point(row, point, but_mesh) for point in figures.values())]
-    lines = [*counts(mapped, in_map), *proportional(ran), *failures(rows, ("model", "seed", *POINT)),
-             *(f"No verdict: {described(row, POINT)}: {row['reason']}" for row in points if row["status"] != "ok")]
+    lines = [*counts(mapped), *proportional(ran), *failures(rows, ("model", "seed", *POINT)),
+             *(f"No verdict: {', '.join(f'{name} {row[name]}' for name in POINT)}: {row['reason']}" for row in points if row["status"] != "ok")]
     floors = ", ".join(f"{name.replace('_', ' ')} {floor:g}" for name, floor in FLOORS.items())
     return f"""Several morphologies and the homogenised block of each; `refine` halves the mesh. Distances are that of the typical (median)
 homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the others, which is what
-is allowed; numbers are the mean of the morphologies, the typical homogenised block, and in brackets how far apart they
+is allowed; numbers are the mean of the morphologies → the typical homogenised block, and in brackets how far apart they
 may be. Bold is what lies outside.
 
-{figure_table(shown, names)}
+{figure_table(shown)}
 {bullets(lines)}
 Allowed is at least (SI units): {floors}. Morphologies whose spectra scatter by more than {ALIKE} are not alike, and nothing
 is equivalent to them.
