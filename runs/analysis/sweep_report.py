@@ -11,6 +11,10 @@ SHOWN = {"friction": ".4f", "frequency": ".0f", "amplitude": ".3g", "stick": ".3
 UNITS = {"frequency": "frequency [Hz]", "power_ratio": "power into the body over drive", "wall_seconds": "seconds"}
 
 
+VIBRATES = 0.01  # amplitude from which a run counts as vibrating
+SETTLED = 0.1  # by how much its amplitude may change from the first to the second half of the window
+
+
 def cell(row, name, form):
     return format(row[name], form) if row.get(name) is not None else "-"
 
@@ -23,6 +27,14 @@ def counts(rows):
     ok = [row for row in rows if row["status"] == "ok"]
     regimes = [f"{sum(row['regime'] == name for row in ok)} {name}" for name in values_of(ok, "regime")]
     return f"{len(rows)} runs, {len(rows) - len(ok)} failed; regimes: {', '.join(regimes) or 'none'}."
+
+
+def unsettled(rows):
+    """What is no average of a limit cycle yet."""
+    loud = [row for row in rows if row["status"] == "ok" and row["amplitude"] > VIBRATES]
+    count = sum(abs(row["settled"] - 1) > SETTLED for row in loud)
+    return (f"{len(loud)} runs vibrate (amplitude above {VIBRATES:g}); in {count} of these the amplitude in the second half "
+            f"of the window is more than {SETTLED:.0%} off that in the first (`settled` far from 1): no limit cycle yet.")
 
 
 def extremes(rows, options):
@@ -65,7 +77,7 @@ def report(rows, compared=None):
     table = markdown([*options, *(UNITS.get(name, name) for name in SHOWN), "status"], [
         [*(row[name] for name in options), *(cell(row, name, form) for name, form in SHOWN.items()), row["status"]]
         for row in rows])
-    text = bullets([counts(rows), *extremes(rows, varied(rows, options)), *failures(rows, options)])
+    text = bullets([counts(rows), unsettled(rows), *extremes(rows, varied(rows, options)), *failures(rows, options)])
     if compared in options and len(values_of(rows, compared)) > 1:
         text += f"\nBetween neighbouring values of {compared}, everything else equal:\n\n{change_table(rows, compared)}"
     return text + "\n" + folded("All runs", table)

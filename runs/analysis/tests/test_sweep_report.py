@@ -34,6 +34,13 @@ class Report(unittest.TestCase):
         self.assertNotIn("neighbouring", sweep_report.report(ROWS))
         self.assertNotIn("neighbouring", sweep_report.report(ROWS, "seed"))
 
+    def test_what_has_not_settled(self):
+        quiet, grows, decays = ({**ROWS[0], **change} for change in (
+            {"amplitude": 0.001, "settled": 3.0}, {"settled": 1.2}, {"settled": 0.8}))
+        self.assertIn("2 runs vibrate (amplitude above 0.01); in 2 of these",
+                      sweep_report.unsettled([quiet, grows, decays, ROWS[-1]]))
+        self.assertIn("5 runs vibrate (amplitude above 0.01); in 0 of these", sweep_report.unsettled(ROWS))
+
     def test_nothing_but_failures(self):
         rows = [row(mu, 1, None, None, status="failed") for mu in (1, 2)]
         self.assertIn("2 runs, 2 failed; regimes: none.", sweep_report.report(rows, "mu"))
