@@ -9,6 +9,7 @@ import numpy as np
 from analysis.distance import portrait_distance, relative_l2, spectrum_distance
 from analysis.panels import rows_in
 from analysis.reading import History, Summary, UnreadableRun
+from analysis.refinement import standard_error
 from analysis.regime import MEASURES, friction_spectrum, measures
 
 SIGNALS = {  # of the probe point, and forces of the measured boundary: (unit, what it is)
@@ -34,20 +35,20 @@ def signal(history, boundary, name, point=0):
 
 
 def average_rows(folder, window, names, point=0, parts=4):
-    """A row for each of `names`, of regime.MEASURES: its value over the window, and the standard error of its mean from
-    as many `parts` of the window, zero for one part."""
+    """A row for each of `names`, of regime.MEASURES: its value over the window; `parts`, its values in as many parts of
+    the window, as text; and `scatter`, the standard error of their mean, zero for one part."""
     if unknown := [name for name in names if name not in MEASURES or name == "regime"]:
         raise UnreadableRun(f"There is no average {unknown[0]}: known are {', '.join(MEASURES)}.")
     if not names:
         return []
     whole = measures(folder, window, point)
-    times = np.linspace(*window, parts + 1)
-    pieces = [measures(folder, part, point) for part in zip(times, times[1:])] if parts > 1 else []
     if missing := [name for name in names if name not in whole]:
         raise UnreadableRun(f"{folder} has no {missing[0]}: it recorded no probe point {point}.")
+    times = np.linspace(*window, parts + 1)
+    pieces = [measures(folder, part, point) for part in zip(times, times[1:])] if parts > 1 else [whole]
     return [{"kind": "average", "quantity": name, "unit": MEASURES[name][0], "value": whole[name],
-             "scatter": float(np.std([piece[name] for piece in pieces], ddof=1) / np.sqrt(parts)) if pieces else 0.0}
-            for name in names]
+             "scatter": standard_error([piece[name] for piece in pieces]),
+             "parts": " ".join(f"{piece[name]:.9g}" for piece in pieces)} for name in names]
 
 
 def samples_in(history, window):

@@ -3,12 +3,14 @@
 A table (see runs/refinement/collect.py) gives a `Refined` for each quantity of each sequence and variant. Two kinds:
 
 - distances to a reference run. The reference is not exact: with an error a h^p on every mesh the distances are
-  a (h^p - h_ref^p), which gives p, and the error of the reference itself.
+  a (h^p - h_ref^p), which gives p, and the error of the reference itself. A reference on other meshes counts as exact,
+  for runs that are clearly coarser.
 - averages. Their limit is Richardson's from the three finest values, with an order of 2 at most, that of the scheme;
-  the error bar is 1.25 times the extrapolated error (Roache, Verification and Validation, 1998, ch. 5), and never less
-  than the scatter of the parts of the window: averages of a limit cycle are measurements.
+  the error bar is 1.25 times the extrapolated error (Roache, Verification and Validation, 1998, ch. 5). What two runs
+  differ by in all parts of the window alike is a change; what it scatters by from part to part is the least error bar.
 
-A sequence that does not converge has no limit, and says so.
+Orders are taken between sizes that are about a factor of two apart, as small changes tell little. A sequence that does
+not converge has no limit, and says so.
 """
 
 from dataclasses import dataclass
@@ -18,17 +20,25 @@ import numpy as np
 from analysis.convergence import fit_power, observed_order, observed_orders, orders_from_errors, richardson
 
 FORMAL = 2.0  # order of scheme and elements
+LEAST = 0.5  # an order below this is none
+SPREAD = 1.8  # between sizes that give an order
 SAFETY = 1.25
 CLOSE = 0.5  # a relative distance above this is not small: unrelated signals are √2 apart
-WITHIN = 2.0  # scatters: smaller changes cannot be told from it
-CONVERGES, SETTLED, DRIFTS, APART, SHORT = ("converges", "settled within its scatter", "no order", "no convergence",
+WITHIN = 2.0  # standard errors: smaller changes cannot be told from scatter
+CONVERGES, SETTLED, STALLS, APART, SHORT = ("converges", "settled within its scatter", "no order", "no convergence",
                                             "too few runs")
+
+
+def standard_error(values):
+    """Of the mean of [n] values; zero for one."""
+    return float(np.std(values, ddof=1) / np.sqrt(len(values))) if len(values) > 1 else 0.0
 
 
 @dataclass
 class Refined:
-    """h falls; arrays [n], errors nan where there is none. `reference_h`: of the reference run, in the same family, or
-    None. order, limit and bar are nan where there is none."""
+    """One quantity of one sequence and variant. h falls; arrays [n], errors nan where there is none; `parts` a list of
+    [p]. `orders` are those between sizes SPREAD apart, order the last; order, limit and bar are nan where there is
+    none."""
 
     sequence: str
     variant: str
@@ -39,6 +49,7 @@ class Refined:
     h: np.ndarray
     values: np.ndarray
     scatter: np.ndarray
+    parts: list
     errors: np.ndarray
     seconds: np.ndarray
     node_steps: np.ndarray
@@ -54,68 +65,95 @@ class Refined:
 
     def price(self):
         """How many times more node-steps an error needs that is ten times smaller: they grow with h to a power that is
-        fitted, errors fall with the order. nan where nothing converges."""
+        fitted, errors fall with the order, 2 at most. nan where nothing converges."""
         if self.verdict != CONVERGES or not np.all(np.isfinite(self.node_steps)):
             return float("nan")
-        return float(10 ** (-fit_power(self.h, self.node_steps).exponent / self.order))
+        return float(10 ** (-fit_power(self.h, self.node_steps).exponent / min(self.order, FORMAL)))
 
 
-def distance_order(h, errors, reference_h):
-    """Order from two distances to the reference at reference_h; to the truth for None. nan where there is none."""
+def apart(h, least):
+    """Indices of sizes that are SPREAD apart, the finest among them; all of them when these are fewer than `least`."""
+    chosen = [len(h) - 1]
+    for k in range(len(h) - 2, -1, -1):
+        if h[k] > SPREAD * h[chosen[0]]:
+            chosen.insert(0, k)
+    return np.array(chosen if len(chosen) >= least else range(len(h)))
+
+
+def distance_orders(h, errors, reference_h):
+    """Between successive distances [n] to the reference at reference_h, to the truth for None: [n-1], nan where there
+    is none."""
     if reference_h is None:
-        return float(orders_from_errors(h, errors)[0])
-    return observed_order([*h, reference_h], [*errors, 0.0])
+        return orders_from_errors(h, errors)
+    return np.array([observed_order([*h[k:k + 2], reference_h], [*errors[k:k + 2], 0.0]) for k in range(len(h) - 1)])
 
 
-def judge_distances(found, reference_h):
-    """Orders, the error of the reference as `bar`, and the verdict; the reference's own row stands last when it is one
-    of the sequence."""
+def judge_distances(found, reference_h, own):
+    """Orders, the error of the reference as `bar`, and the verdict. `own` says whether the reference at reference_h
+    belongs to the same refinement."""
     known = np.isfinite(found.errors)
-    h, errors = found.h[known], found.errors[known]
-    found.orders = np.array([distance_order(h[k:k + 2], errors[k:k + 2], reference_h) for k in range(len(h) - 1)])
-    if len(h) < 2:
+    if reference_h is not None and not own:
+        known, reference_h = known & (found.h > SPREAD * reference_h), None
+    known = np.flatnonzero(known)
+    if len(known) < 2:
         return
-    first = max(0, len(h) - 3)
-    found.order = distance_order(h[[first, -1]], errors[[first, -1]], reference_h)
-    falls = np.all(np.diff(errors[first:]) < 0)
-    found.verdict = CONVERGES if falls and errors[-1] < CLOSE and found.order > 0 else APART
-    if found.verdict == CONVERGES and reference_h is not None:
-        found.bar = float(errors[-1] / np.expm1(found.order * np.log(h[-1] / reference_h)))
+    chosen = known[apart(found.h[known], 2)]
+    h, errors = found.h[chosen], found.errors[chosen]
+    found.orders = distance_orders(h, errors, reference_h)
+    found.verdict = APART if errors[-1] > CLOSE else STALLS
+    if found.verdict == STALLS and found.orders[-1] > LEAST and np.all(np.diff(found.errors[known[-3:]]) < 0):
+        found.verdict, found.order = CONVERGES, float(found.orders[-1])
+        if reference_h is not None:
+            found.bar = float(errors[-1] / np.expm1(found.order * np.log(h[-1] / reference_h)))
 
 
 def judge_averages(found, known=None):
-    """Orders, limit, error bar, verdict and errors of averages; `known` is the exact limit."""
-    h, values = found.h, found.values
-    scatter = float(np.max(found.scatter[-3:]))
+    """Orders, limit, error bar, verdict and errors; `known` is the exact limit."""
+    chosen = apart(found.h, 3)
+    if len(chosen) < (3 if known is None else 2):
+        return
+    h, values = found.h[chosen], found.values[chosen]
+    scatter = [change_scatter(found, *pair) for pair in zip(chosen, chosen[1:])]
     if known is not None:
-        found.errors = np.abs(values - known)
-        found.orders = orders_from_errors(h, found.errors)
-        found.order = float(orders_from_errors(h[[max(0, len(h) - 3), -1]], found.errors[[max(0, len(h) - 3), -1]])[0])
+        found.errors = np.abs(found.values - known)
+        found.orders = orders_from_errors(h, values - known)
+        settled = found.errors[-1] <= WITHIN * found.scatter[-1]
         found.limit, found.bar = known, 0.0
-        found.verdict = CONVERGES if found.order > 0 else SETTLED if found.errors[-1] <= WITHIN * scatter else DRIFTS
-        return
-    if len(h) < 3:
-        return
-    found.orders = observed_orders(h, values)
-    changes = np.abs(np.diff(values[-3:]))
-    order = found.orders[-1]
-    if np.all(changes <= WITHIN * scatter):
-        found.verdict, found.limit = SETTLED, float(values[-1])
-        found.bar = max(scatter, float(np.ptp(values[-3:])))
-    elif order > 0:
-        found.verdict, found.order = CONVERGES, float(order)
-        limit = richardson(h, values, min(order, FORMAL))
-        found.limit, found.bar = limit.limit, max(SAFETY * abs(limit.error), scatter)
     else:
-        found.verdict = DRIFTS
-    if np.isfinite(found.limit):
-        found.errors = np.abs(values - found.limit)
+        found.orders = observed_orders(h, values)
+        settled = np.all(np.abs(np.diff(values)[-2:]) <= WITHIN * np.array(scatter[-2:]))
+    order = float(found.orders[-1])
+    found.verdict = SETTLED if settled else CONVERGES if order > LEAST else STALLS
+    if found.verdict == CONVERGES:
+        found.order = order
+    if known is None and found.verdict != STALLS:
+        found.limit, found.bar = limit_of(h, values, found.order, scatter[-1])
+        found.errors = np.abs(found.values - found.limit)
         if found.verdict == SETTLED:
             found.errors[-1] = np.nan  # it is the limit
 
 
-def refine(rows, reference_h=None, known=None):
-    """`Refined` of rows (dicts) of one quantity, in any order."""
+def change_scatter(found, coarse, fine):
+    """Standard error of the change between two runs, from the parts of the window: what both share drops out."""
+    own, other = found.parts[coarse], found.parts[fine]
+    return standard_error(own - other) if len(own) == len(other) else 0.0
+
+
+def limit_of(h, values, order, scatter):
+    """Limit and error bar; the finest value and the range of the last three without an order."""
+    if np.isnan(order):
+        return float(values[-1]), max(float(np.ptp(values[-3:])), scatter)
+    found = richardson(h, values, min(order, FORMAL))
+    return found.limit, max(SAFETY * abs(found.error), scatter)
+
+
+def parts_of(row):
+    """Its values in the parts of the window [p], none when it has none."""
+    return np.array([] if row.get("parts") is None else str(row["parts"]).split(), dtype=float)
+
+
+def refine(rows, reference_h=None, known=None, own=True):
+    """`Refined` of rows (dicts) of one quantity, in any order; see `judge_distances` and `judge_averages`."""
     rows = sorted(rows, key=lambda row: -row[row["along"]])
     first = rows[0]
 
@@ -123,9 +161,10 @@ def refine(rows, reference_h=None, known=None):
         return np.array([np.nan if row.get(name) is None else row[name] for row in rows], dtype=float)
 
     found = Refined(*(str(first[name]) for name in ("sequence", "variant", "along", "kind", "quantity", "unit")),
-                    h=column(first["along"]), values=column("value"), scatter=column("scatter"), errors=column("error"),
-                    seconds=column("seconds"), node_steps=column("node_steps"), rows=rows)
-    judge_averages(found, known) if found.is_average() else judge_distances(found, reference_h)
+                    h=column(first["along"]), values=column("value"), scatter=column("scatter"),
+                    parts=[parts_of(row) for row in rows], errors=column("error"), seconds=column("seconds"),
+                    node_steps=column("node_steps"), rows=rows)
+    judge_averages(found, known) if found.is_average() else judge_distances(found, reference_h, own)
     return found
 
 
@@ -135,7 +174,8 @@ def found_in(rows):
     for row in rows:
         if row["status"] == "ok" and row["quantity"]:
             groups.setdefault((row["sequence"], row["variant"], row["kind"], row["quantity"]), []).append(row)
-    return [refine(group, group[0].get("reference_h"), group[0].get("known")) for group in groups.values()]
+    return [refine(group, group[0].get("reference_h"), group[0].get("known"), group[0].get("reference_own", 1))
+            for group in groups.values()]
 
 
 def summary_rows(found):

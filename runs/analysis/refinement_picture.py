@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import NullFormatter, ScalarFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from analysis import overlay
 from analysis.drawing import PREFIXES, plt, write_picture
@@ -24,7 +24,8 @@ from analysis.table import read_csv
 
 COLOURS = (VERMILION, ORANGE, BLUE, GREEN, PURPLE, SKY, BLACK)
 MARKERS = "oDs^vP*"
-COLUMNS = 3
+COLUMNS = 4
+LIMIT = 0.5  # where limits stand, over the finest size
 TIMES = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"), (1e-12, "ps"))
 UNRELATED = np.sqrt(2)
 
@@ -52,13 +53,23 @@ class Look:
         return {"color": COLOURS[k % len(COLOURS)], "marker": MARKERS[k % len(MARKERS)], "markersize": 5}
 
 
-def decades(axes, which, values):
-    """Ticks at the values themselves: sizes of a refinement are few."""
-    axis = axes.xaxis if which == "x" else axes.yaxis
-    axis.set_ticks(sorted(set(values)))
-    axis.set_major_formatter(ScalarFormatter())
-    axis.set_minor_formatter(NullFormatter())
-    axis.set_tick_params(rotation=45)
+def ticks_at(axes, values, limit=None):
+    """Ticks at the sizes themselves, which are few, and at the place of the limit."""
+    places = sorted(set(values))
+    near = [next_ for place, next_ in zip(places, places[1:]) if next_ < 1.3 * place]  # their labels would touch
+    axes.xaxis.set_major_locator(FixedLocator([*places, *([limit] if limit else [])]))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.xaxis.set_major_formatter(FuncFormatter(
+        lambda x, _: "limit" if x == limit else "" if x in near else f"{x:.4g}"))
+    axes.minorticks_off()
+
+
+def room_for_legend(axes, entries):
+    """Widens a logarithmic axis so that a legend below hides nothing, nor the frame the line of unrelated runs."""
+    bottom, top = axes.get_ylim()
+    top = max(top, 2.5 * UNRELATED)
+    axes.set_ylim(top * (bottom / top) ** (1 / (1 - 0.06 * entries)), top)
+    axes.legend(fontsize="small", framealpha=0.9, loc="lower right")
 
 
 def error_panel(axes, found, look):
@@ -69,13 +80,14 @@ def error_panel(axes, found, look):
         order = f"order {each.order:.1f}" if each.verdict == CONVERGES else each.verdict
         axes.loglog(each.h[known] * scale, each.errors[known], "-", **look.of(each.variant),
                     label=f"{each.variant}: {order}")
-    axes.axhline(UNRELATED, color="0.6", linestyle=":", linewidth=1)
-    axes.annotate("unrelated", (0.02, UNRELATED), (0, 3), color="0.45", xycoords=("axes fraction", "data"),
-                  textcoords="offset points", fontsize="small")
+    if found[0].quantity != "portrait":
+        axes.axhline(UNRELATED, color="0.6", linestyle=":", linewidth=1)
+        axes.annotate("unrelated", (0.02, UNRELATED), (0, 3), color="0.45", xycoords=("axes fraction", "data"),
+                      textcoords="offset points", fontsize="small")
     guide(axes, found, scale)
-    decades(axes, "x", np.concatenate([each.h[np.isfinite(each.errors)] for each in found]) * scale)
+    ticks_at(axes, np.concatenate([each.h[np.isfinite(each.errors)] for each in found]) * scale)
     axes.grid(alpha=0.25)
-    axes.legend(fontsize="small", framealpha=0.9)
+    room_for_legend(axes, len(found) + 1)
     axes.set(title=f"{in_title(found[0])}, distance to the reference", xlabel=axis_name(found[0].along, unit),
              ylabel="relative L2 distance" if found[0].quantity != "portrait" else "distance [deviations]")
 
@@ -95,32 +107,30 @@ def price_panel(axes, found, look, name, label):
     """Errors over what they cost."""
     for each in found:
         known = np.isfinite(each.errors) & (each.errors > 0)
-        axes.loglog(getattr(each, name)[known], each.errors[known], "-", **look.of(each.variant), label=each.variant)
+        axes.loglog(getattr(each, name)[known], each.errors[known], "-", **look.of(each.variant))
     low, high = axes.get_xlim()
     if high > 20 * low:
         axes.xaxis.set_minor_formatter(NullFormatter())
     axes.grid(alpha=0.25)
-    axes.legend(fontsize="small", framealpha=0.9)
     axes.set(title=f"{in_title(found[0])}, error over {label}", xlabel=label,
              ylabel="distance to the reference")
 
 
 def average_panel(axes, found, look):
-    """Values with their scatter over size or step, and Richardson's limit with its error bar at the left."""
+    """Values with their scatter in time over size or step, and limits with their error bars at the left."""
     scale, unit = unit_of(found[0].h, found[0].along)
     sizes = np.unique(np.concatenate([each.h for each in found])) * scale
     factor = 1e-3 if found[0].unit == "Hz" else 1.0
     for k, each in enumerate(found):
         style = look.of(each.variant)
         axes.errorbar(each.h * scale, each.values * factor, each.scatter * factor, linewidth=1, capsize=2,
-                      label=each.variant, **style)
-        if each.verdict == CONVERGES and np.isfinite(each.limit):
-            axes.errorbar(sizes[0] * 0.8 ** (1 + 0.4 * k), each.limit * factor, each.bar * factor, capsize=3,
+                      **style)
+        if np.isfinite(each.limit):
+            axes.errorbar(sizes[0] * LIMIT * 0.93**k, each.limit * factor, each.bar * factor, capsize=3,
                           linewidth=1.5, **{**style, "markerfacecolor": "none"})
     axes.set_xscale("log")
-    decades(axes, "x", sizes)
+    ticks_at(axes, sizes, sizes[0] * LIMIT if any(np.isfinite(each.limit) for each in found) else None)
     axes.grid(alpha=0.25)
-    axes.legend(fontsize="small", framealpha=0.9)
     said = "kHz" if found[0].unit == "Hz" else found[0].unit
     axes.set(title=f"{in_title(found[0])}, average", xlabel=axis_name(found[0].along, unit),
              ylabel=f"{in_title(found[0])} [{said}]")
@@ -168,6 +178,17 @@ def panels_of(found):
         yield lambda axes, look, group=group: average_panel(axes, group, look)
 
 
+def legend_panel(axes, look, averages):
+    """What colours, markers and bars mean."""
+    handles = [plt.Line2D([], [], **look.of(variant), label=variant) for variant in look.variants]
+    if averages:
+        handles += [plt.Line2D([], [], color=BLACK, marker="|", markersize=12, linestyle="", label="scatter in time"),
+                    plt.Line2D([], [], color=BLACK, marker="o", markerfacecolor="none", linestyle="",
+                               label="limit for ever finer runs ± error bar")]
+    axes.legend(handles=handles, loc="center", frameon=False)
+    axes.axis("off")
+
+
 def draw(options):
     """The figure of one sequence of the table. Raises UnreadableRun."""
     rows = [row for row in read_csv(options.table) if row["sequence"] == options.sequence and row["status"] == "ok"]
@@ -175,19 +196,26 @@ def draw(options):
     drawn = list(panels_of(found))
     if not drawn:
         raise UnreadableRun(f"{options.table} holds nothing that was found for the sequence {options.sequence}.")
-    columns = max(COLUMNS, len(options.variants))
-    portraits = 1 if options.variants else 0
-    height = portraits + -(-len(drawn) // columns)
-    figure, axes = plt.subplots(height, columns, figsize=(5.4 * columns, 4.6 * height), layout="constrained",
+    portraits = len(options.variants)
+    columns = max(COLUMNS, portraits + 1)
+    first = 1 if portraits else 0
+    height = first + -(-(len(drawn) + (not portraits)) // columns)
+    figure, axes = plt.subplots(height, columns, figsize=(4.7 * columns, 4.2 * height), layout="constrained",
                                 squeeze=False)
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1)
-    if portraits:
-        portrait_panels(axes[0][:len(options.variants)], rows, options)
     look = Look(each.variant for each in found)
-    rest = axes[portraits:].ravel()
-    for panel, paint in zip(rest, drawn):
-        paint(panel, look)
-    for panel in [*axes[0][len(options.variants) if portraits else columns:], *rest[len(drawn):]]:
+    if portraits:
+        portrait_panels(axes[0][:portraits], rows, options)
+    rest = [*axes[0][portraits:], *axes[1:].ravel()] if portraits else [*axes.ravel()]
+    if portraits:
+        legend_panel(rest.pop(0), look, any(each.is_average() for each in found))
+        while len(rest) > (height - 1) * columns:
+            rest.pop(0).axis("off")
+    for paint in drawn:
+        paint(rest.pop(0), look)
+    if not portraits:
+        legend_panel(rest.pop(0), look, any(each.is_average() for each in found))
+    for panel in rest:
         panel.axis("off")
     return figure
 

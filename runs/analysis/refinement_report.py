@@ -1,6 +1,6 @@
 """A refinement study's table in Markdown: errors and orders, limits with their error bars, and what accuracy costs.
 
-    report(rows)    the text; rows are those of the study's table
+    report(rows, unfolded)    the text; rows are those of the study's table
 """
 
 import numpy as np
@@ -8,26 +8,38 @@ import numpy as np
 from analysis.refinement import CONVERGES, found_in
 from analysis.refinement_picture import unit_of
 from analysis.report import bullets, failures, folded
+from analysis.sequences import SAME
 from analysis.table import markdown
 
 OPTIONS = ("sequence", "variant", "family", "size", "step")  # of a run, to say which one failed
-DIGITS = {"friction": 4, "frequency": 1, "velocity": 3, "stick": 3, "open": 3, "power_ratio": 3}
+DIGITS = {"friction": 4, "frequency": 1, "velocity": 3, "stick": 4, "open": 4, "power_ratio": 4}
 KILO = 1e-3
-DEAREST = 1e6  # times: nobody pays more
+DEAREST = 1e4  # times: nobody pays more
 SAME_DRAWING = 1e-9  # of the fraction of the inclusions
 
 
 def in_digits(error):
-    return "-" if not np.isfinite(error) else f"{error:.3f}" if error >= 0.1 else f"{error:.2g}"
+    return "-" if not np.isfinite(error) else f"{error:.3f}" if error >= 0.1 else f"{error:#.2g}"
 
 
-def shown(found, value, digits=None):
+def scale_of(found):
+    return KILO if found.unit == "Hz" else 1.0
+
+
+def shown(found, value):
     """A value of an average in its unit, kHz for Hz."""
     if not np.isfinite(value):
         return "-"
-    if found.quantity in DIGITS:
-        return f"{value * (KILO if found.unit == 'Hz' else 1):.{digits or DIGITS[found.quantity]}f}"
-    return f"{value:.{digits or 4}g}"
+    return f"{value * scale_of(found):.{DIGITS[found.quantity]}f}" if found.quantity in DIGITS else f"{value:.4g}"
+
+
+def with_bar(found, value, bar):
+    """The error bar has two digits, the value as many decimals."""
+    value, bar = value * scale_of(found), bar * scale_of(found)
+    if not (np.isfinite(value) and bar > 0):
+        return shown(found, value / scale_of(found))
+    decimals = min(9, max(0, 1 - int(np.floor(np.log10(bar)))))
+    return f"{value:.{decimals}f} ± {bar:.{decimals}f}"
 
 
 def heading(found):
@@ -36,10 +48,10 @@ def heading(found):
 
 
 def in_words(each):
-    """Order from the three finest and, in brackets, those between successive ones; or the verdict."""
+    """Orders from coarse to fine, the last of which counts; or the verdict."""
     if each.verdict != CONVERGES:
         return each.verdict
-    return f"{each.order:.2f} ({', '.join(f'{order:.1f}' for order in each.orders)})"
+    return ", ".join(f"{order:.1f}" if np.isfinite(order) else "-" for order in each.orders)
 
 
 def sizes_in(found):
@@ -49,7 +61,7 @@ def sizes_in(found):
 
 def at(each, h, values):
     """The value at size h, nan where the sequence lacks it."""
-    place = np.flatnonzero(np.isclose(each.h, h, rtol=1e-6))
+    place = np.flatnonzero(np.isclose(each.h, h, rtol=SAME, atol=0))
     return values[place[0]] if len(place) else np.nan
 
 
@@ -59,11 +71,12 @@ def table_of(found, number):
     sizes = [h for h in sizes_in(found) if any(number(each, h) != "-" for each in found)]
     scale, unit = unit_of(sizes, found[0].along)
     averages = found[0].is_average()
-    last = ["limit ± error bar"] if averages else ["error of the reference"]
+    last = ["limit ± error bar", "scatter in time"] if averages else ["error of the reference"]
     header = ["", heading_of(found), *(f"{h * scale:.4g} {unit}" for h in sizes), "order", *last, "ten times less costs"]
-    lines = [[each.variant, heading(each), *(number(each, h) for h in sizes), in_words(each), limit_of(each),
+    lines = [[each.variant, heading(each), *(number(each, h) for h in sizes), in_words(each), *limit_of(each),
               price_of(each)] for each in found]
-    return markdown(header, lines)
+    rest = [""] * (len(header) - 2 - len(sizes))
+    return markdown(header, [*lines, *([*line, *rest] for line in price_lines(found, sizes))])
 
 
 def heading_of(found):
@@ -71,32 +84,27 @@ def heading_of(found):
 
 
 def limit_of(each):
+    """What stands in the columns of the limit."""
     if not each.is_average():
-        return in_digits(each.bar)
-    if not np.isfinite(each.limit):
-        return "-"
-    return f"{shown(each, each.limit)} ± {shown(each, each.bar)}"
+        return [in_digits(each.bar)]
+    return [with_bar(each, each.limit, each.bar), f"{each.scatter[-1] * scale_of(each):.2g}"]
 
 
 def price_of(each):
-    return f"{each.price():.0f} times" if each.price() < DEAREST else "-"
+    if not np.isfinite(each.price()):
+        return "-"
+    return f"{each.price():.0f} times" if each.price() < DEAREST else f"over {DEAREST:.0f} times"
 
 
 def value_at(each, h):
-    value = at(each, h, each.values)
-    scatter = at(each, h, each.scatter)
-    return shown(each, value) + (f" ± {shown(each, scatter)}" if scatter > 0 else "")
+    return shown(each, at(each, h, each.values))
 
 
-def trade_lines(found):
-    """For each quantity that converges: what its finest error cost."""
-    for each in found:
-        known = np.isfinite(each.errors) & (each.errors > 0)
-        if each.verdict == CONVERGES and np.count_nonzero(known) > 1:
-            scale, unit = unit_of(each.h, each.along)
-            steps = [f"{in_digits(each.errors[k])} at {each.h[k] * scale:.4g} {unit} for {each.seconds[k]:.2g} s and "
-                     f"{each.node_steps[k]:.1e} node-steps" for k in np.flatnonzero(known)[[0, -1]]]
-            yield f"{each.variant}, {heading(each)}: error {'; '.join(steps)}."
+def price_lines(found, sizes):
+    """Two lines of a table: node-steps and seconds at each size, medians of the variants."""
+    for name, label in (("node_steps", "node-steps"), ("seconds", "seconds")):
+        prices = [[at(each, h, getattr(each, name)) for each in found] for h in sizes]
+        yield ["", label, *("-" if np.all(np.isnan(price)) else f"{np.nanmedian(price):.2g}" for price in prices)]
 
 
 def drawing_lines(rows):
@@ -117,19 +125,23 @@ def drawing_lines(rows):
                    f"{', inclusions moved or dropped at ' + ', '.join(changed) if changed else ''}.")
 
 
-def sequence_text(name, rows):
-    """The part of one sequence."""
+def sequence_text(rows):
+    """What was found in one sequence."""
     found = found_in(rows)
-    first = rows[0]
-    text = f"**{name}**, scene {first['scene']}, meshes {first['family']}, {varied(rows)}:\n\n"
+    text = ""
     distances = [each for each in found if not each.is_average()]
     averages = [each for each in found if each.is_average()]
     if distances:
         text += table_of(distances, lambda each, h: in_digits(at(each, h, each.errors))) + "\n"
     if averages:
         text += table_of(averages, value_at) + "\n"
-    lines = [*trade_lines(distances), *failures(rows, OPTIONS)]
-    return text + (bullets(lines) + "\n" if lines else "")
+    failed = bullets(failures(rows, OPTIONS))
+    return text + (failed + "\n" if failed else "")
+
+
+def title_of(rows):
+    first = rows[0]
+    return f"{first['sequence']}: scene {first['scene']}, meshes {first['family']}, {varied(rows)}"
 
 
 def varied(rows):
@@ -144,20 +156,32 @@ def varied(rows):
 
 
 def every_run(rows):
-    """One line for each run of each sequence and number, price beside error."""
-    header = ["sequence", "variant", "size [m]", "step [s]", "nodes", "node-steps", "seconds", "quantity", "value",
-              "scatter", "distance"]
+    """One line for each run of each sequence, price beside what was found."""
+    runs = {}
+    for row in rows:
+        if row["status"] == "ok":
+            runs.setdefault((row["sequence"], row["variant"], row["run"]), []).append(row)
+    header = ["sequence", "variant", "size [m]", "step [s]", "nodes", "node-steps", "seconds", "distances", "averages"]
     return markdown(header, [
-        [row["sequence"], row["variant"], f"{row['size']:.4g}", f"{row['step']:.4g}", row["nodes"],
-         f"{row['node_steps']:.2e}", f"{row['seconds']:.2f}", row["quantity"] or "the reference",
-         *("" if row.get(name) is None else f"{row[name]:.5g}" for name in ("value", "scatter", "error"))]
-        for row in rows if row["status"] == "ok"])
+        [first["sequence"], first["variant"], f"{first['size']:.4g}", f"{first['step']:.4g}", first["nodes"],
+         f"{first['node_steps']:.2e}", f"{first['seconds']:.2f}", said(found, "error", ".3g"), said(found, "value", ".5g")]
+        for found in runs.values() for first in found[:1]])
 
 
-def report(rows):
+def said(rows, column, digits):
+    return ", ".join(f"{row['quantity']} {row[column]:{digits}}" for row in rows if row.get(column) is not None)
+
+
+def report(rows, unfolded=None):
+    """The sequences named by `unfolded`, all for None, are seen at once, others when a reader unfolds them."""
     parts = {}
     for row in rows:
         parts.setdefault(row["sequence"], []).append(row)
     drawings = bullets(drawing_lines([row for row in rows if row["status"] == "ok"]))
-    text = "".join(sequence_text(name, part) for name, part in parts.items())
-    return f"{drawings}{chr(10) if drawings else ''}{text}{folded('All runs', every_run(rows))}"
+    text = f"{drawings}\n" if drawings else ""
+    for name, part in parts.items():
+        if unfolded is None or name in unfolded:
+            text += f"**{title_of(part)}**\n\n{sequence_text(part)}"
+        else:
+            text += folded(title_of(part), sequence_text(part)) + "\n"
+    return text + folded("All runs", every_run(rows))

@@ -39,11 +39,11 @@ class Runs:
                 "seconds": self.outcome(run)["cpu_seconds"]}
 
 
-def reference_h(chain):
-    """Size or step of the reference where it belongs to the same refinement, else None."""
-    own = {**chain.runs[-1], "size": None, "step": None}
-    same = {**chain.reference, "size": None, "step": None} == own
-    return chain.reference[chain.along] if same and chain.reference[chain.along] != "auto" else None
+def reference_of(chain):
+    """Size or step of the reference, and whether it belongs to the same refinement (1) or to another (0)."""
+    same = {**chain.reference, "size": None, "step": None} == {**chain.runs[-1], "size": None, "step": None}
+    h = chain.reference[chain.along]
+    return {"reference_h": None if h == "auto" else h, "reference_own": int(same)}
 
 
 def rows_of(chain, run, runs):
@@ -72,7 +72,7 @@ def rows_of(chain, run, runs):
                                   entries["trajectories"], entries["distances"], point)
     except UnreadableRun as error:
         return [*found, {**row, "status": "failed", "reason": str(error)}]
-    return [*found, *({**row, **each, "reference_h": reference_h(chain)} for each in distances)]
+    return [*found, *({**row, **each, **reference_of(chain)} for each in distances)]
 
 
 job = snakemake  # noqa: F821

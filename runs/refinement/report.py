@@ -5,5 +5,5 @@ from analysis.report import publish
 from analysis.table import read_csv
 
 job = snakemake  # noqa: F821
-publish(report(read_csv(job.input.table)), job.output[0], job.params.readme, job.params.shown,
+publish(report(read_csv(job.input.table), job.params.unfolded), job.output[0], job.params.readme, job.params.shown,
         others=job.input.pictures)

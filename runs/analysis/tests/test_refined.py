@@ -50,6 +50,7 @@ class Refined(unittest.TestCase):
         row = self.rows(["stick"])[0]
         self.assertAlmostEqual(row["scatter"], 0.1 * np.sqrt(5 / 3) / 2, delta=1e-3)
         self.assertAlmostEqual(row["value"], 0.15, delta=1e-3)
+        np.testing.assert_allclose([float(part) for part in row["parts"].split()], [0, 0.1, 0.2, 0.3], atol=1e-3)
         self.assertEqual(self.rows(["stick"], parts=1)[0]["scatter"], 0)
 
     def test_nothing_between_a_run_and_itself(self):

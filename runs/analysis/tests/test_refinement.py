@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from analysis.refinement import APART, CONVERGES, DRIFTS, SETTLED, SHORT, found_in, refine, summary_rows
+from analysis.refinement import APART, CONVERGES, SETTLED, SHORT, STALLS, apart, found_in, refine, summary_rows
 
 SIZES = (0.5, 0.25, 0.125, 0.1, 0.0625)
 REFERENCE = 0.03125
@@ -20,9 +20,15 @@ def distances(errors, **more):
     return [row(h, kind="trajectory", quantity="velocity", error=error, **more) for h, error in zip(SIZES, errors)]
 
 
-def averages(values, scatter=0.0, **more):
-    return [row(h, kind="average", quantity="friction", value=value, scatter=scatter, **more)
-            for h, value in zip(SIZES, values)]
+def averages(values, scatter=0.0, shared=0.0, **more):
+    """`scatter` is the standard error of the change from one size to the next that counts, from four parts of the
+    window; a wave over them, `shared`, is the same on all sizes."""
+    found = []
+    for h, value, sign in zip(SIZES, values, (1, -1, 1, 1, -1)):
+        own = value + sign * scatter * np.sqrt(3) / 2 * np.array([1, -1, 1, -1]) + shared * np.array([1, 2, -1, -2])
+        found.append(row(h, kind="average", quantity="friction", value=value, scatter=shared,
+                         parts=" ".join(f"{part:.12g}" for part in own), **more))
+    return found
 
 
 class Distances(unittest.TestCase):
@@ -43,14 +49,30 @@ class Distances(unittest.TestCase):
         np.testing.assert_allclose(found.orders, 1.5, rtol=1e-12)
         self.assertTrue(math.isnan(found.bar))
 
+    def test_against_other_meshes(self):
+        """Their finest run is taken for the truth, but not by runs as fine as itself."""
+        errors = [0.3 * h**1.5 for h in SIZES[:-1]] + [1e-6]
+        found = refine(distances(errors), 0.05, own=False)
+        np.testing.assert_allclose(found.orders, 1.5, rtol=1e-12)
+        self.assertEqual(len(found.orders), 2)
+
     def test_no_convergence(self):
-        for errors in ((1.34, 1.35, 1.38, 1.37, 1.35),  # unrelated trajectories
-                       (1.3, 1.2, 1.1, 0.9, 0.7),  # falls, but still far away
-                       (0.1, 0.05, 0.02, 0.02, 0.02),  # does not fall to the end
-                       (0.1, 0.05, 0.02, 0.03, 0.01)):
+        for verdict, errors in ((APART, (1.34, 1.35, 1.38, 1.37, 1.35)),  # unrelated trajectories
+                                (APART, (1.3, 1.2, 1.1, 0.9, 0.7)),  # falls, but still far away
+                                (STALLS, (0.1, 0.05, 0.02, 0.02, 0.02)),
+                                (STALLS, (0.1, 0.05, 0.02, 0.03, 0.01)),
+                                (STALLS, (0.5, 0.47, 0.44, 0.43, 0.40))):  # slower than any order
             found = refine(distances(errors), REFERENCE)
-            self.assertEqual(found.verdict, APART, errors)
-            self.assertTrue(math.isnan(found.bar) and math.isnan(found.price()))
+            self.assertEqual(found.verdict, verdict, errors)
+            for value in (found.order, found.bar, found.price()):
+                self.assertTrue(math.isnan(value))
+
+    def test_sizes_that_are_close_give_no_order(self):
+        np.testing.assert_array_equal(apart(np.array(SIZES), 3), [0, 1, 2, 4])
+        np.testing.assert_array_equal(apart(np.array([4, 3.5, 3, 2.9]), 2), [0, 1, 2, 3])
+        jitter = [0.3 * (h - REFERENCE) for h in SIZES]
+        jitter[3] *= 0.9  # at .1, between .125 and .0625
+        np.testing.assert_allclose(refine(distances(jitter), REFERENCE).orders, 1, rtol=1e-9)
 
     def test_a_failed_run_is_left_out(self):
         rows = distances([0.3 * (h - REFERENCE) for h in SIZES], reference_h=REFERENCE)
@@ -77,28 +99,34 @@ class Averages(unittest.TestCase):
         found = refine(averages([0.44 - 0.1 * h**4 for h in SIZES]))
         self.assertAlmostEqual(found.order, 4, delta=1e-6)
         self.assertGreater(found.bar, 1.25 * 0.1 * SIZES[-1] ** 4)
+        self.assertAlmostEqual(found.price(), 10**1.5, delta=1e-6)
 
     def test_changes_within_the_scatter_are_none(self):
-        found = refine(averages([0.4300, 0.4340, 0.4376, 0.4380, 0.4370], scatter=0.001))
+        found = refine(averages([0.4300, 0.4340, 0.4376, 0.4380, 0.4370], scatter=0.002))
         self.assertEqual((found.verdict, found.limit), (SETTLED, 0.4370))
-        self.assertAlmostEqual(found.bar, 0.001, delta=1e-12)
+        self.assertAlmostEqual(found.bar, 0.0036, delta=1e-12)  # the range of those apart: .4340, .4376, .4370
         self.assertTrue(math.isnan(found.order))
 
+    def test_what_all_sizes_share_is_no_scatter_of_a_change(self):
+        """A slow wave moves the averages of all runs alike: an order stands out from it."""
+        found = refine(averages([0.44 - 0.1 * h for h in SIZES], shared=0.05))
+        self.assertEqual(found.verdict, CONVERGES)
+        self.assertAlmostEqual(found.order, 1, delta=1e-9)
+
     def test_changes_beyond_the_scatter_without_an_order(self):
-        found = refine(averages([0.43, 0.44, 0.42, 0.45, 0.41], scatter=0.0001))
-        self.assertEqual(found.verdict, DRIFTS)
+        found = refine(averages([0.43, 0.41, 0.42, 0.45, 0.40], scatter=0.0001))
+        self.assertEqual(found.verdict, STALLS)
         for value in (found.order, found.limit, found.bar, found.price()):
             self.assertTrue(math.isnan(value))
 
     def test_a_drift_that_grows_has_no_limit(self):
         found = refine(averages(1 / np.sqrt(SIZES)))
-        self.assertEqual(found.verdict, DRIFTS)
+        self.assertEqual(found.verdict, STALLS)
 
     def test_the_scatter_is_the_least_error_bar(self):
-        found = refine(averages([0.44 - 0.1 * h for h in SIZES], scatter=0.01))
-        self.assertEqual(found.verdict, SETTLED)
-        found = refine(averages([0.44 - 0.1 * h for h in SIZES], scatter=0.0001))
-        self.assertAlmostEqual(found.bar, 0.00625 * 1.25, delta=1e-9)
+        found = refine(averages([0.44 - 0.1 * h**2 for h in SIZES], scatter=0.001))
+        self.assertEqual(found.verdict, CONVERGES)
+        self.assertAlmostEqual(found.bar, 0.001, delta=1e-9)  # more than 1.25 times 0.1 * 0.0625^2
 
     def test_known_limit(self):
         found = refine(averages([0.44 + 0.1 * h**1.5 for h in SIZES]), known=0.44)

@@ -29,7 +29,7 @@ def rows():
         found += [base(h, "good", kind="trajectory", quantity="velocity", unit="1", reference_h=REFERENCE,
                        error=4e5 * (h**2 - REFERENCE**2)),
                   base(h, "bad", kind="trajectory", quantity="velocity", unit="1", reference_h=REFERENCE, error=1.41),
-                  base(h, "good", kind="average", quantity="friction", unit="1", value=0.44 + 40 * h, scatter=1e-6)]
+                  base(h, "good", kind="average", quantity="friction", unit="1", value=0.44 + 40 * h, scatter=1e-3)]
     return found + [base(REFERENCE, "bad", status="failed", reason="it fell")]
 
 
@@ -45,20 +45,27 @@ class Report(unittest.TestCase):
 
     def test_lines(self):
         text = report(self.through_a_file(rows()))
-        for words in ("| good | velocity | 0.098 | 0.023 | 0.0047 | 2.00 (2.0, 2.0) | 0.0016 | 32 times |",
+        for words in ("| good | velocity | 0.098 | 0.023 | 0.0047 | 2.0, 2.0 | 0.0016 | 32 times |",
                       "| bad | velocity | 1.410 | 1.410 | 1.410 | no convergence | - | - |",
-                      "| good | friction | 0.4600 ± 0.0000 | 0.4500 ± 0.0000 | 0.4450 ± 0.0000 | 1.00 (1.0) | "
-                      "0.4400 ± 0.0062 | 1000 times |",
-                      "element size and time step refined together",
+                      "| good | friction | 0.4600 | 0.4500 | 0.4450 | 1.0 | 0.4400 ± 0.0062 | 0.001 | 1000 times |",
+                      "|  | node-steps | 2e+06 | 1.6e+07 | 1.3e+08 |", "|  | seconds | 0.016 | 0.13 | 1 |",
+                      "**before: scene r, meshes block, element size and time step refined together**",
                       "sequence before, variant bad, family block, size 6.25e-05, step 1.25e-09: it fell"):
             self.assertIn(words, text)
         self.assertIn("| 0.5 mm | 0.25 mm | 0.125 mm |", text)
+
+    def test_folded(self):
+        table = rows() + [{**row, "sequence": "after"} for row in rows()]
+        text = report(self.through_a_file(table), ["after"])
+        self.assertIn("<summary>before: scene r", text)
+        self.assertIn("**after: scene r", text)
 
     def test_the_step_alone(self):
         table = [{**row, "along": "step", "size": 1e-4, "reference_h": 2e-5 * REFERENCE} for row in rows()]
         text = report(self.through_a_file(table))
         self.assertIn("time step refined, element size 0.1 mm", text)
-        self.assertIn("| 10 ns | 5 ns | 2.5 ns | 2.00", text.replace(" order |", " 2.00"))
+        self.assertIn("| 10 ns | 5 ns | 2.5 ns | order |", text)
+        self.assertIn("| good | velocity | 0.098 | 0.023 | 0.0047 |", text)
 
     def test_drawings(self):
         drawn = {"inclusions": 7, "inclusion_fraction": 0.3, "moved": 0, "redrawn": 0, "dropped": 0}
@@ -83,7 +90,7 @@ class Report(unittest.TestCase):
             fake_run.write_run(self.folder / "run" / f"good_{h:g}")
         portraits = ("--variants", "good", "--size", "0.5e-3", "0.25e-3", "--window", "3e-4", "4e-4")
         self.assertEqual(self.picture("before", *portraits), (0, ""))
-        self.assertGreater((self.folder / "picture.png").stat().st_size, 1.3 * plain)
+        self.assertGreater((self.folder / "picture.png").stat().st_size, 1.1 * plain)
 
     def test_one_sentence_where_there_is_nothing_to_draw(self):
         self.through_a_file(rows())
