@@ -15,12 +15,13 @@ from analysis.reading import History, Summary, UnreadableRun
 
 FEWEST_ROWS = 32
 HIGHEST = 2e6  # Hz, up to which spectra are compared
+STILL = 1e-9  # of the normal force: friction that varies by less is constant to rounding, and has no frequency
 SHARE = 0.01  # of the contact's length and time: what sticks or opens less than this does not name the regime
 
 MEASURES = {  # name: (unit, what it is)
     "friction": ("1", "mean tangential over mean normal force at the measured boundary"),
     "normal_force": ("N/m", "mean normal force there"),
-    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force"),
+    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant"),
     "amplitude": ("1", "standard deviation of the tangential over the mean normal force"),
     "stick": ("1", "part of the contact's length, on average over time"),
     "slip": ("1", "the same"),
@@ -71,7 +72,7 @@ def measures(folder, window, point=0):
     found = {
         "friction": history.mean_friction(boundary, rows),
         "normal_force": np.mean(history.boundary[boundary]["normal_force"][rows]),
-        "frequency": spectrum.dominant_frequency(*spectrum.welch(values, rate)) if np.ptp(values) > 0 else 0.0,
+        "frequency": spectrum.dominant_frequency(*spectrum.welch(values, rate)) if np.ptp(values) > STILL else 0.0,
         "amplitude": np.std(signal),
         **{state: np.mean(history.contact[state][rows]) for state in ("stick", "slip", "open")},
         **point_measures(history.points, point, rows),

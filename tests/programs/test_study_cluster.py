@@ -135,6 +135,19 @@ class Cluster(studies.StudyCase):
         self.assertIn("array.sh -n 2", self.logs())
         self.assertFalse(list(self.out.glob("run/*/outcome.yaml")))
 
+    def test_what_a_job_asks_for(self):
+        needs = {"ranks": 2, "mem_mb": 500, "runtime": 7, "exclusive": 1}
+        for resources, threads, words in ((needs, 4, "--ntasks=2 --cpus-per-task=2 --time=7 --mem=500 --exclusive"),
+                                          ({"exclusive": 0}, 1, "--ntasks=1 --cpus-per-task=1")):
+            script = self.folder / "job.sh"
+            properties = {"rule": "mesh", "wildcards": {"mesh": "a"}, "threads": threads, "resources": resources}
+            script.write_text(f"#!/bin/sh\n# properties = {json.dumps(properties)}\ntrue\n")
+            self.assertEqual(self.start(PROFILE / "submit.py", script).returncode, 0)
+            asked = self.jobs("mesh-a")[-1]["options"]
+            said = " ".join(f"--{name}={value}".removesuffix("=") for name, value in asked.items()
+                            if name not in ("parsable", "job-name", "output"))
+            self.assertEqual(said, words)
+
     def test_words_of_an_array(self):
         done = self.start(PROFILE / "array.sh", 2)
         self.assertEqual(done.returncode, 2)

@@ -4,6 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from analysis.reading import UnreadableRun
@@ -40,6 +41,14 @@ class Regime(unittest.TestCase):
         self.assertAlmostEqual(found["drive_power"], fake_run.FRICTION * fake_run.NORMAL * fake_run.SPEED, delta=500)
         self.assertAlmostEqual(found["settled"], 1, delta=0.02)
         self.assertEqual(found["regime"], "stick-slip-separated")
+
+    def test_rounding_has_no_frequency(self):
+        with tempfile.TemporaryDirectory() as folder:
+            fake_run.write_run(Path(folder))
+            with h5py.File(Path(folder) / "history.h5", "r+") as file:
+                force = file["boundary/top/tangential_force"]
+                force[...] = 1e-12 * force[...]
+            self.assertEqual(measures(folder, WINDOW)["frequency"], 0)
 
     def test_a_wave_that_still_grows_is_not_settled(self):
         self.assertGreater(measures(self.folder, (4e-5, 1e-4))["settled"], 1.1)
