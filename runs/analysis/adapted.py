@@ -11,6 +11,7 @@ COMPARED = ("spectrum_distance", "power", "friction", "frequency", "amplitude", 
 
 WAYS = {"time": "T", "coefficient": "µ", "damping": "damping", "slip_rate": "slip-rate form", "density": "density",
         "density_time": "density, then T"}
+GOES_ON = ("density_time",)  # ways whose distance before is that after another way
 
 
 def adapted_rows(outcome):
@@ -50,6 +51,17 @@ def cases_of(rows):
             case = tuple(row[name] for name in COMPOSITE)
             cases.setdefault(case, {})[row["way"], row["level"]] = row
     return cases
+
+
+def before_of(case):
+    """The distance of the spectrum before anything was adapted; nan if only later ways are known."""
+    return next((row["before_spectrum_distance"] for (way, _), row in case.items() if way not in GOES_ON), float("nan"))
+
+
+def left_by(case, way):
+    """The distance of the spectrum that the best level of this way left; inf without."""
+    row = best_level(case, way)
+    return row["after_spectrum_distance"] if row else float("inf")
 
 
 def best_level(case, way):

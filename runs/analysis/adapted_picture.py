@@ -2,8 +2,8 @@
 
     PYTHONPATH=runs python3 -m analysis.adapted_picture OUT PICTURE.png --window FROM TO
 
-OUT is the output of the study: table.csv, run/ and adapt/. The two cases are those whose relaxation time brought the
-largest and the smallest part of the distance.
+OUT is the output of the study: table.csv, run/ and adapt/. The two cases are chosen by
+`examples`.
 """
 
 import argparse
@@ -13,7 +13,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from analysis.adapted import best_level, cases_of
+from analysis.adapted import before_of, best_level, cases_of, left_by
 from analysis.drawing import write_picture
 from analysis.morphologies import COMPOSITE
 from analysis.panels import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
@@ -28,17 +28,18 @@ WAYS = {"time": ("T", "o", VERMILION), "coefficient": ("µ", "s", ORANGE), "damp
         "density_time": ("density, then T", "^", BLUE)}
 
 
-def before_of(case):
-    return next(iter(case.values()))["before_spectrum_distance"]
-
-
-def extremes(cases):
-    """The composites whose T brought the largest and the smallest part of the distance."""
-    part = {name: found["after_spectrum_distance"] / before_of(case) for name, case in cases.items()
-            if (found := best_level(case, "time"))}
-    if not part:
+def examples(cases):
+    """Two composites: where a level of T left the least distance, and of the others where another density, with or
+    without another T, beats T by most (without such, where T left the most)."""
+    known = [name for name, case in cases.items() if best_level(case, "time")]
+    if not known:
         raise UnreadableRun("no relaxation time was adapted.")
-    return min(part, key=part.get), max(part, key=part.get)
+    first = min(known, key=lambda name: left_by(cases[name], "time"))
+
+    def gain(name):
+        case = cases[name]
+        return left_by(case, "time") / min(left_by(case, "density"), left_by(case, "density_time"), 1e3)
+    return first, max((name for name in known if name != first), key=gain, default=first)
 
 
 def title_of(composite):
@@ -50,16 +51,16 @@ def draw_spectra(axes, out, composite, case, window):
     row = best_level(case, "time")
     of = dict(zip(COMPOSITE, composite))
     runs = {"composite": (out / "run" / run_name({**of, "model": "heterogeneous"}), BLUE),
-            "homogenised": (out / "run" / run_name({**of, "model": "homogeneous"}), BLACK),
-            f"homogenised, T = {1e6 * row['value']:.3g} µs": (row["folder"], VERMILION)}
-    if after := best_level(case, "density_time"):
-        runs[f"density adapted, T = {1e6 * after['value']:.3g} µs"] = after["folder"], ORANGE
+            f"homogenised: {before_of(case):.2f}": (out / "run" / run_name({**of, "model": "homogeneous"}), BLACK),
+            f"T = {1e6 * row['value']:.3g} µs: {row['after_spectrum_distance']:.2f}": (row["folder"], VERMILION)}
+    if after := best_level(case, "density_time") or best_level(case, "density"):
+        runs[f"density adapted too: {after['after_spectrum_distance']:.2f}"] = after["folder"], ORANGE
     for name, (folder, colour) in runs.items():
         frequency, amplitude = friction_spectrum(folder, window)
         axes.semilogy(frequency / 1e3, np.maximum(amplitude, 1e-12), color=colour, linewidth=1.2, label=name)
     top = axes.get_ylim()[1]
-    axes.set(ylim=(1e-4 * top, top), xlim=(0, 2000), xlabel="frequency [kHz]", ylabel="√density [1/√Hz]",
-             title=f"{title_of(composite)}\ndistance {before_of(case):.2f} → {row['after_spectrum_distance']:.2f}")
+    axes.set(ylim=(1e-4 * top, 4 * top), xlim=(0, 1300), xlabel="frequency [kHz]", ylabel="√density [1/√Hz]",
+             title=f"{title_of(composite)}: distances")
     axes.legend(fontsize="small", loc="upper right")
     axes.grid(alpha=0.25)
 
@@ -86,6 +87,9 @@ def draw_distances(axes, cases):
     axes.annotate("a block at rest", (0.003, 1), xycoords=("axes fraction", "data"), fontsize="small", va="bottom",
                   color="0.3")
     axes.set_yscale("log")
+    axes.set_yticks([0.1, 0.2, 0.5, 1, 2, 5, 10], ["0.1", "0.2", "0.5", "1", "2", "5", "10"])
+    axes.set_yticks([], minor=True)
+    axes.autoscale(axis="y")
     axes.set_xticks(range(len(order)), [f"{young:g}\nmorph. {seed:g}" for young, _, _, seed in order])
     axes.set(ylabel="distance of the spectrum [1]", xlim=(-0.6, len(order) - 0.4),
              xlabel="modulus of the inclusions [GPa] and morphology")
@@ -98,7 +102,7 @@ def draw(options):
     cases = cases_of(read_csv(out / "table.csv"))
     figure = plt.figure(figsize=(12, 9), constrained_layout=True)
     grid = figure.add_gridspec(2, 2)
-    for k, name in enumerate(extremes(cases)):
+    for k, name in enumerate(examples(cases)):
         draw_spectra(figure.add_subplot(grid[0, k]), out, name, cases[name], options.window)
     draw_distances(figure.add_subplot(grid[1, :]), cases)
     return figure

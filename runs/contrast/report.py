@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis.adapted import WAYS, best_level, cases_of
+from analysis.adapted import WAYS, before_of, best_level, cases_of
 from analysis.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
 from analysis.report import bullets, failures, folded, publish
 from analysis.table import markdown, read_csv
@@ -105,8 +105,7 @@ def time_table(cases):
         best = best_level(case, "time")
         off = [f"{100 * best['before_' + what]:+.0f} → {100 * best['after_' + what]:+.0f} %"
                for what in ("amplitude", "frequency")] if best else ["-", "-"]
-        before = next(iter(case.values()))["before_spectrum_distance"]
-        lines.append([f"{name[0]:g}", name[3], f"{before:.2f}",
+        lines.append([f"{name[0]:g}", name[3], f"{before_of(case):.2f}",
                       *(said(case.get(("time", level))) for level in ("scaling", "frequency", "search", "nearest")),
                       *off])
     return markdown(header, lines)
@@ -118,8 +117,7 @@ def other_table(cases):
     for name, case in cases.items():
         others = {way: (case.get((way, "search")), case.get((way, "nearest"))) for way in WAYS if way != "time"}
         if any(search for search, _ in others.values()):
-            lines.append([f"{name[0]:g}", name[3], f"{case['time', 'search']['before_spectrum_distance']:.2f}" if
-                          ("time", "search") in case else "-",
+            lines.append([f"{name[0]:g}", name[3], f"{before_of(case):.2f}",
                           *(f"{said(search)} (nearest {said(nearest)})" if search else "-"
                             for search, nearest in others.values())])
     return markdown(header, lines)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import yaml
 
-from analysis.adapted import COMPARED, adapted_rows, best_level, cases_of
+from analysis.adapted import COMPARED, adapted_rows, before_of, best_level, cases_of, left_by
 
 OPTIONS = {"young": 300, "diameter": 1.0, "size": 0.125, "seed": 2, "way": "time"}
 
@@ -43,6 +43,8 @@ class Adapted(unittest.TestCase):
         cases = cases_of([{**dict.fromkeys(("after_spectrum_distance",)), **row} for row in adapted_rows(self.outcome)])
         best = best_level(cases[300, 1.0, 0.125, 2], "time")
         self.assertEqual((best["level"], best["folder"]), ("search", "trial-0.7"))
+        self.assertEqual(before_of(cases[300, 1.0, 0.125, 2]), 1.4)
+        self.assertEqual([left_by(cases[300, 1.0, 0.125, 2], way) for way in ("time", "damping")], [0.7, float("inf")])
         self.assertIsNone(best_level(cases[300, 1.0, 0.125, 2], "damping"))
 
     def test_what_was_not_started_is_one_row(self):
