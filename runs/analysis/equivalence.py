@@ -25,9 +25,11 @@ ALIKE = 0.5  # scatter of the spectra above which morphologies are not alike, so
 COMPARABLE = 1 / 3  # height of a second peak of √density, of the first, from which on it counts as a mode
 NEAR = 0.05  # of a frequency: within it two are the same
 
-EQUIVALENT, STABLE, ONE_ONLY, COMPETE, FREQUENCY, AMPLITUDE, UNLIKE = VERDICTS = (
-    "equivalent", "nothing vibrates", "only one vibrates", "modes compete", "frequency differs", "amplitude differs",
-    "morphologies differ")
+SETTLED = 1.25  # a run whose amplitude changes by a larger factor within its window is not settled
+
+EQUIVALENT, STABLE, UNSETTLED, ONE_ONLY, COMPETE, FREQUENCY, AMPLITUDE, UNLIKE = VERDICTS = (
+    "equivalent", "nothing vibrates", "not settled", "only one vibrates", "modes compete", "frequency differs",
+    "amplitude differs", "morphologies differ")
 
 
 @dataclass
@@ -129,19 +131,21 @@ def same(frequencies):
 
 def verdict(composites, homogenised):
     """One of VERDICTS on two lists of Run. Equivalent means that the morphologies are alike (their scatter is below
-    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: some vibrate and
-    others do not; a run has two modes or the morphologies have different ones; the block has another frequency than the
-    morphologies; morphologies are not alike; its spectrum is as much apart at the same frequency."""
-    vibrating = {run.vibrates for run in (*composites, *homogenised)}
-    if len(vibrating) > 1:
-        return ONE_ONLY
-    if not vibrating.pop():
+    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: a run is not settled;
+    some vibrate and others do not; a run has two modes or the morphologies have different ones; the block has another
+    frequency than the morphologies; morphologies are not alike; its spectrum is as much apart at the same frequency."""
+    runs = [*composites, *homogenised]
+    if not any(run.vibrates for run in runs):
         return STABLE
     judged = judge("spectrum", composites, homogenised)
-    if judged.scatter <= ALIKE and judged.within:
+    if all(run.vibrates for run in runs) and judged.scatter <= ALIKE and judged.within:
         return EQUIVALENT
-    own, other = ([fundamental(run) for run in runs] for runs in (composites, homogenised))
-    if any(len(modes(run.spectrum)) > 1 for run in (*composites, *homogenised)) or not same(own):
+    if max(map(unsettled, runs)) > SETTLED:
+        return UNSETTLED
+    if not all(run.vibrates for run in runs):
+        return ONE_ONLY
+    own, other = ([fundamental(run) for run in side] for side in (composites, homogenised))
+    if any(len(modes(run.spectrum)) > 1 for run in runs) or not same(own):
         return COMPETE
     if not same([np.mean(own), np.median(other)]):
         return FREQUENCY

@@ -12,15 +12,14 @@ import argparse
 import sys
 
 from analysis.drawing import plt, write_picture
-from analysis.equivalence import VERDICTS
+from analysis.equivalence import SETTLED, VERDICTS
 from analysis.maps import map_panel, pairs, selected
 from analysis.panels import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from analysis.reading import UnreadableRun
 from analysis.scales import UNITS, Scale, Shades
 from analysis.table import read_csv
 
-COLOURS = dict(zip(VERDICTS, (GREEN, "#B9E3D3", SKY, PURPLE, VERMILION, ORANGE, BLUE)))
-SETTLED = 1.25  # a run whose amplitude changes by more over its window is marked
+COLOURS = dict(zip(VERDICTS, (GREEN, "#B9E3D3", "0.8", SKY, PURPLE, VERMILION, ORANGE, BLUE)))
 LIGHT = (VERMILION, BLUE)  # behind white words
 
 

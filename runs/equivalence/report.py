@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from analysis.equivalence import ALIKE, FLOORS, SCALARS, VERDICTS
+from analysis.equivalence import ALIKE, FLOORS, SCALARS, SETTLED, VERDICTS
 from analysis.report import bullets, failures, folded, publish
 from analysis.scales import values_of
 from analysis.table import markdown, read_csv
@@ -71,9 +71,9 @@ def counts(points):
             number = Counter(row["verdict"] for row in found)
             said = ", ".join(f"{number[name]} {name}" for name in VERDICTS if number[name])
             yield f"Memory {memory}, block {block}, {len(found)} points: {said}."
-    moving = sum(row["settled"] > 1.25 for row in points)
+    moving = sum(row["settled"] > SETTLED for row in points)
     if points:
-        yield f"At {moving} of {len(points)} points some run still grew or fell by more than a quarter in its window."
+        yield f"At {moving} of {len(points)} points the amplitude of some run changed by more than a factor {SETTLED} in its window."
 
 
 def worst_of(one, other):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from analysis.equivalence import (ALIKE, AMPLITUDE, COMPETE, EQUIVALENT, FREQUENCY, ONE_ONLY, SCALARS, STABLE, UNLIKE,
-                                  Run, compared, judge, modes, points, read_run, verdict)
+                                  UNSETTLED, Run, compared, judge, modes, points, read_run, verdict)
 from analysis.reading import UnreadableRun
 from analysis.tests import fake_run
 
@@ -88,16 +88,18 @@ class Verdict(unittest.TestCase):
                 (COMPETE, self.composites, [run((3.5e5, 1.1), (4.6e5, 1.0))]),
                 (COMPETE, [run((3.5e5, 1)), run((4.6e5, 1))], [run((3.5e5, 1))]),
                 (UNLIKE, [run((3.5e5, 1)), run((3.5e5, 1 + 2 * ALIKE))], [run((3.5e5, 1.3))]),
+                (UNSETTLED, self.composites, [run((4.2e5, 1.1), settled=1.3)]),
+                (EQUIVALENT, self.composites, [run((3.5e5, 1.05), settled=1.3)]),
                 (ONE_ONLY, self.composites, [still]),
                 (ONE_ONLY, [still, self.composites[0]], [still]),
                 (STABLE, [still, still], [still])):
             self.assertEqual(verdict(composites, homogenised), wanted)
 
     def test_columns(self):
-        row = compared(self.composites, [run((3.5e5, 2.0), settled=0.5)])
+        row = compared(self.composites, [run((3.5e5, 2.0), settled=1 / 1.2)])
         self.assertEqual((row["verdict"], row["composites"], row["homogenised"]), (AMPLITUDE, 3, 1))
         self.assertEqual(row["homogenised_modes"], "350000")
-        self.assertEqual(row["settled"], 2)  # halved or doubled, it is not at rest
+        self.assertAlmostEqual(row["settled"], 1.2)  # falling or growing
         self.assertFalse(row["spectrum_within"])
         self.assertTrue(row["frequency_within"])
 
