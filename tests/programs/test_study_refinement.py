@@ -73,8 +73,10 @@ class Refinement(studies.StudyCase):
         return csv.DictReader((self.out / name).read_text().splitlines())
 
     def test_other_meshes_by_one_file(self):
-        """Halved by `slide` or meshed anew, equal squares give equal trajectories; a .geo and a .msh serve as well."""
-        wide = yaml.safe_load((studies.RUNS / self.study / "study.yaml").read_text())["families"]["wide"]
+        """Halved by `slide` or meshed anew, equal squares give equal trajectories; a .geo, a .msh and a scene
+        in a file serve as well."""
+        study = yaml.safe_load((studies.RUNS / self.study / "study.yaml").read_text())
+        wide = study["families"]["wide"]
         (self.folder / "block.geo").write_text(GEO)
         subprocess.run([self.folder / "programs/morphology", *words({**wide["morphology"], "size": 0.5e-3}).split(),
                         "-output_folder", self.folder / "drawn"], check=True, stdout=subprocess.DEVNULL)
@@ -84,8 +86,13 @@ class Refinement(studies.StudyCase):
             "halved": {**wide, "refine_from": 0.5e-3},
             "geo": {"file": str(self.folder / "block.geo")},
             "ready": {"files": {0.5e-3: str(self.folder / "drawn/mesh.msh"), 0.25e-3: "nowhere.msh"}}}
-        self.run_study(families=families, sequences=[
-            {**sequence, "name": name, "family": name} for name in ("wide", *families)])
+        (self.folder / "scene.yaml").write_text(yaml.safe_dump(study["scenes"]["undamped"]["options"]))
+        scenes = {"written": {"file": str(self.folder / "scene.yaml"), "sample": 10e-9}}
+        self.run_study(families=families, scenes=scenes, sequences=[
+            *({**sequence, "name": name, "family": name} for name in ("wide", *families)),
+            {**sequence, "name": "written", "scene": "written",
+             "reference": {**sequence["reference"], "scene": "undamped"}}])
+        self.assertEqual(self.errors("written", "T300", "velocity"), self.errors("wide", "T300", "velocity"))
         wide, halved, geo = (self.errors(name, "T300", "velocity") for name in ("wide", "halved", "geo"))
         for own, other in zip(wide, halved):
             self.assertTrue(math.isclose(own, other, rel_tol=1e-4), (wide, halved))
