@@ -63,7 +63,7 @@ class Cluster(studies.StudyCase):
         super().setUp()
         self.slurm = self.folder / "slurm"
         self.slurm.mkdir()
-        for name, text in (("sbatch", SBATCH), ("scontrol", SCONTROL)):
+        for name, text in (("sbatch", SBATCH), ("scontrol", SCONTROL), ("sacct", "#!/bin/sh\nexit 1\n")):
             (self.slurm / name).write_text(text)
             (self.slurm / name).chmod(0o755)
 
