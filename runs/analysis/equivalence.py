@@ -34,8 +34,8 @@ EQUIVALENT, STABLE, UNSETTLED, ONE_ONLY, COMPETE, FREQUENCY, AMPLITUDE, UNLIKE =
 
 @dataclass
 class Run:
-    """What is compared of a run in one window: spectrum, a pair (Hz, 1/√Hz) of arrays [n]; portrait, [2, n] u in m and v
-    in m/s; values, those of `regime.measures`."""
+    """What is compared of a run in one window: spectrum, a pair (Hz, 1/√Hz) of arrays [n]; portrait, [2, n], u in m and
+    v in m/s; values, those of `regime.measures`."""
 
     spectrum: tuple
     portrait: np.ndarray
@@ -159,9 +159,10 @@ def unsettled(run):
 
 
 def compared(composites, homogenised):
-    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`, by what
-    factor the amplitude changed in the window where it changed most; the modes in Hz as text; and for each measure `_apart` (the typical homogenised block), `_limit` and `_within`, for a number also
-    `_composites` (mean) and `_homogenised` (median)."""
+    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`, the
+    largest factor by which the amplitude of a run changed in the window; the modes in Hz as text; and for each measure
+    `_apart` (of the typical homogenised block), `_limit` and `_within`, for a number also `_composites` (mean) and
+    `_homogenised` (median)."""
     row = {"verdict": verdict(composites, homogenised), "composites": len(composites), "homogenised": len(homogenised),
            "settled": max(unsettled(run) for run in (*composites, *homogenised))}
     for name, runs in (("composite_modes", composites), ("homogenised_modes", homogenised)):
@@ -177,8 +178,8 @@ def compared(composites, homogenised):
 
 
 def points(rows, folders, windows):
-    """Rows of a table of runs (dicts, with the options `model`, composite or homogenised, `seed` and `window`) and their
-    folders give a row for each point, which is all other options, that both models were run at. `windows` are pairs in
+    """Rows of a table of runs (dicts, with the options `model`, composite or homogenised, `seed` and `window`) and
+    their folders give a row for each point, which is all other options, that both models were run at. `windows` are pairs in
     s by name. A point with less than two morphologies that ran has the status failed."""
     groups = {}
     for row, folder in zip(rows, folders):

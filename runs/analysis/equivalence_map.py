@@ -13,7 +13,7 @@ import sys
 
 from analysis.drawing import plt, write_picture
 from analysis.equivalence import SETTLED, VERDICTS
-from analysis.maps import map_panel, pairs, selected
+from analysis.maps import FAILED, map_panel, pairs, selected
 from analysis.panels import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from analysis.reading import UnreadableRun
 from analysis.scales import UNITS, Scale, Shades
@@ -53,9 +53,9 @@ def draw(options):
     x, y = options.over
     units = {**UNITS, **pairs(options.unit)}
     values = list(dict.fromkeys(row[options.panel] for row in rows)) if options.panel else [None]
-    figure, panels = plt.subplots(1, len(values), figsize=(6 * len(values) + 0.5, 6), squeeze=False,
+    figure, panels = plt.subplots(1, len(values), figsize=(5.6 * len(values) + 1, 6), squeeze=False,
                                   layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.1, rect=(0, 0.1, 1, 0.9))
+    figure.get_layout_engine().set(w_pad=0.1, rect=(0, 0.13, 1, 0.87))
     shades = shades_of(rows)
     for axes, value in zip(panels[0], values):
         members = [row for row in rows if not options.panel or row[options.panel] == value]
@@ -66,15 +66,16 @@ def draw(options):
         write_cells(axes, members, x, y, units)
         axes.set_title(f"{options.panel} {value}" if options.panel else "")
         axes.get_legend().remove()
-    figure.legend(handles=handles(shades, rows), loc="lower center", frameon=False, ncols=4)
-    figure.suptitle("Strongest frequency composite/homogenised [kHz]; distance of spectra found/allowed; * not settled", fontsize=11)
+    figure.legend(handles=handles(shades, rows), loc="lower center", frameon=False, ncols=3, fontsize="small")
+    figure.suptitle("Strongest frequency, composites/homogenised [kHz] (* not settled)\n"
+                    "and distance of their spectra, found/allowed", fontsize=11)
     return figure
 
 
 def handles(shades, rows):
     names = [plt.Rectangle((0, 0), 1, 1, facecolor=colour, label=name) for name, colour in shades.colours.items()]
     failed = any(row["status"] != "ok" for row in rows)
-    return names + [plt.Rectangle((0, 0), 1, 1, facecolor="white", edgecolor="0.35", hatch="////", label="failed")] * failed
+    return names + [plt.Rectangle((0, 0), 1, 1, label="failed", **FAILED)] * failed
 
 
 def main(arguments=None):

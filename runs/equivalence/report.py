@@ -44,11 +44,16 @@ def figure_table(points):
     return markdown(["", *points], lines)
 
 
+def kilohertz(modes):
+    """Modes in Hz as text, runs divided by '; ' and their modes by ' + ', in kHz."""
+    return "; ".join(" + ".join(f"{float(mode) / 1e3:.0f}" for mode in run.split(" + ") if mode)
+                     for run in str(modes or "").split("; "))
+
+
 def map_table(points, names):
     lines = [[*place(row, names), row["verdict"],
               f"{row['spectrum_apart']:.2f} / {row['spectrum_limit']:.2f}",
-              *("; ".join(" + ".join(f"{float(mode) / 1e3:.0f}" for mode in run.split(" + ") if mode)
-                          for run in str(row[f"{kind}_modes"] or "").split("; ")) for kind in ("composite", "homogenised")),
+              *(kilohertz(row[f"{kind}_modes"]) for kind in ("composite", "homogenised")),
               *(", ".join(in_form(measure, row[f"{measure}_{kind}"]) for kind in ("composites", "homogenised"))
                 for measure in ("friction", "amplitude", "stick", "open", "power_ratio")), f"{row['settled']:.2f}"]
              for row in points]
@@ -73,7 +78,8 @@ def counts(points):
             yield f"Memory {memory}, block {block}, {len(found)} points: {said}."
     moving = sum(row["settled"] > SETTLED for row in points)
     if points:
-        yield f"At {moving} of {len(points)} points the amplitude of some run changed by more than a factor {SETTLED} in its window."
+        yield (f"At {moving} of {len(points)} points the amplitude of some run changed by more than a factor {SETTLED} in "
+               "its window.")
 
 
 def worst_of(one, other):
@@ -111,17 +117,18 @@ def report(rows, points, figures):
     in_map = ["coefficient", "load", "speed", "memory", "block"]
     runs = [row for row in ran if any(same_point(row, point, but_mesh) for point in figures.values())]
     lines = [*counts(mapped), *proportional(ran), *failures(rows, ("model", "seed", *POINT)),
-             *(f"No verdict: {', '.join(f'{name} {row[name]}' for name in POINT)}: {row['reason']}" for row in points if row["status"] != "ok")]
+             *(f"No verdict: {', '.join(f'{name} {row[name]}' for name in POINT)}: {row['reason']}"
+               for row in points if row["status"] != "ok")]
     floors = ", ".join(f"{name.replace('_', ' ')} {floor:g}" for name, floor in FLOORS.items())
-    return f"""Several morphologies and the homogenised block of each; `refine` halves the mesh. Distances are that of the typical (median)
+    return f"""Several morphologies and the homogenised block of each; `refine` 1 halves the mesh. Distances: of the typical (median)
 homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the others, which is what
-is allowed; numbers are the mean of the morphologies → the typical homogenised block, and in brackets how far apart they
-may be. Bold is what lies outside.
+is allowed. Numbers: mean of the morphologies → typical homogenised block, in brackets how far apart they may be. Bold is
+what lies outside.
 
 {figure_table(shown)}
 {bullets(lines)}
-Allowed is at least (SI units): {floors}. Morphologies whose spectra scatter by more than {ALIKE} are not alike, and nothing
-is equivalent to them.
+Allowed is at least (SI units): {floors}. Morphologies whose spectra scatter by more than {ALIKE} are not alike,
+and nothing is equivalent to them.
 
 {folded("All points of the maps (composites, homogenised)", map_table(mapped, in_map))}
 {folded("All runs of the figures", run_table(runs, ["model", "seed", *names]))}"""
