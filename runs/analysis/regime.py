@@ -17,6 +17,7 @@ FEWEST_ROWS = 32
 HIGHEST = 2e6  # Hz, up to which spectra are compared
 STILL = 1e-9  # of the normal force: friction that varies by less is constant to rounding, and has no frequency
 SHARE = 0.01  # of the contact's length and time: what sticks or opens less than this does not name the regime
+STEADY = 0.01  # of friction, and of the drive power: what varies or feeds vibration by less slides steadily
 
 MEASURES = {  # name: (unit, what it is)
     "friction": ("1", "mean tangential over mean normal force at the measured boundary"),
@@ -33,7 +34,7 @@ MEASURES = {  # name: (unit, what it is)
     "drive_power": ("W/m", "mean of τ V along the surface"),
     "power_ratio": ("1", "mean power into the body over mean drive power"),
     "settled": ("1", "amplitude in the second half of the window over that in the first"),
-    "regime": ("", "slip, stick-slip, slip-separated or stick-slip-separated"),
+    "regime": ("", "steady, slip, stick-slip, slip-separated or stick-slip-separated"),
 }
 
 
@@ -53,8 +54,12 @@ def friction_signal(history, boundary, rows):
     return forces["tangential_force"][rows] / normal if normal > 0 else np.zeros(rows.stop - rows.start)
 
 
-def regime(stick, open_):
-    """The name that Peillex, Baillet, Berthier (IJTC2007-44438) give to what the contact does over time."""
+def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
+    """The name that Peillex, Baillet, Berthier (IJTC2007-44438) give to what the contact does over time; steady where
+    nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip hardly
+    moves the mean friction, but it takes power."""
+    if amplitude <= STEADY * abs(friction) and abs(power_ratio) <= STEADY:
+        return "steady"
     name = "stick-slip" if stick > SHARE else "slip"
     return f"{name}-separated" if open_ > SHARE else name
 
@@ -79,8 +84,8 @@ def measures(folder, window, point=0):
         **power_measures(history.surface, rows),
         "settled": np.std(signal[half:]) / first if first > 0 else 1.0,
     }
-    return {**{name: float(value) for name, value in found.items()},
-            "regime": regime(found["stick"], found["open"])}
+    name = regime(*(found[part] for part in ("stick", "open", "amplitude", "friction", "power_ratio")))
+    return {**{name: float(value) for name, value in found.items()}, "regime": name}
 
 
 def point_measures(points, point, rows):

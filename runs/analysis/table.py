@@ -46,7 +46,10 @@ def collect(outcomes, read):
         outcome = yaml.safe_load(path.read_text())
         row = {**outcome["options"], **{name: outcome[name] for name in OUTCOME}}
         if outcome["status"] == "ok":
-            row.update(read(path.parent))
+            found = read(path.parent)
+            if hidden := outcome["options"].keys() & found.keys():
+                raise ValueError(f"{path}: {sorted(hidden)[0]!r} is both an option and a result: rename the option")
+            row.update(found)
         rows.append(row)
     return rows
 

@@ -57,6 +57,11 @@ class Regime(unittest.TestCase):
         self.assertEqual([regime(*shares) for shares in ((0, 0), (0.2, 0), (0, 0.2), (0.2, 0.2), (0.001, 0.001))],
                          ["slip", "stick-slip", "slip-separated", "stick-slip-separated", "slip"])
 
+    def test_an_edge_that_is_open_for_good_vibrates_not(self):
+        self.assertEqual(regime(0, 0.1, amplitude=2e-3, friction=0.3, power_ratio=1e-3), "steady")
+        self.assertEqual(regime(0, 0.1, amplitude=4e-3, friction=0.3, power_ratio=1e-3), "slip-separated")
+        self.assertEqual(regime(0, 0.5, amplitude=2e-3, friction=0.3, power_ratio=0.2), "slip-separated")
+
     def test_spectrum_ends_where_it_is_told_to(self):
         frequency, amplitude = friction_spectrum(self.folder, WINDOW, highest=1e6)
         self.assertTrue(frequency[-1] <= 1e6 < frequency[-1] + 2 * frequency[1])

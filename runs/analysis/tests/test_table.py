@@ -50,6 +50,8 @@ class Rows(unittest.TestCase):
         self.assertEqual(shown, [[8, 1e-10, "failed", 'no, "never",', None, None],
                                  [16, 1e-10, "ok", None, 0.1 + 0.2, "b"]])
         self.assertFalse(list(self.folder.glob("*.unfinished")))
+        with self.assertRaisesRegex(ValueError, "b/outcome.yaml: 'size' is both an option and a result"):
+            table.collect(outcomes, lambda folder: {"size": 1.0})
 
     def test_quickest(self):
         rows = [{"size": size, "repeat": k, "seconds": seconds, "status": status} for size, k, seconds, status in (
