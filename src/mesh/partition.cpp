@@ -2,6 +2,7 @@
 #include <petscpartitioner.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "stages.hpp"
@@ -11,32 +12,39 @@ namespace {
 
 using OwnedPartitioner = Owned<PetscPartitioner, PetscPartitionerDestroy>;
 
-/// The cell on the other side of the edge from `a` to `b`; -1 when there is none. That cell runs through it
-/// the other way, so it is looked for among the cells around `a`.
-PetscInt beyond(PetscInt cell, PetscInt a, PetscInt b, const std::vector<CellVertices>& cells,
-                const Rows& around) {
+/// Finds the cell on the other side of an edge. That cell runs through it the other way, from `b` to `a`, so
+/// it is among the cells around `a`. No edge's answer is looked for twice.
+void find_beyond(CellSide side, const std::vector<CellVertices>& cells, const Rows& around,
+                 std::vector<CellVertices>& beyond) {
+  PetscInt& answer = beyond[side.cell][side.corner];
+  if (answer >= 0) return;
+  const auto corners = corners_of(cells[side.cell]);
+  const PetscInt a = corners[side.corner], b = corners[(side.corner + 1) % corners.size()];
   for (const PetscInt other : around[a]) {
-    if (other == cell) continue;
-    const auto corners = corners_of(cells[other]);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      if (corners[k] == b && corners[(k + 1) % corners.size()] == a) return other;
+    if (other == side.cell) continue;
+    const auto others = corners_of(cells[other]);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      if (others[k] != b || others[(k + 1) % others.size()] != a) continue;
+      answer = other;
+      beyond[other][k] = side.cell;
+      return;
+    }
   }
-  return -1;
 }
 
 /// Cells that share an edge, ascending. Rank 0.
 Rows cell_graph(const std::vector<CellVertices>& cells, PetscInt vertices) {
   const Rows around = cells_around(cells, vertices);
+  std::vector<CellVertices> beyond(cells.size(), {-1, -1, -1, -1});
   Rows graph;
   graph.start.reserve(cells.size() + 1);
   graph.start.push_back(0);
   graph.entries.reserve(around.entries.size());
   for (PetscInt cell = 0; cell < static_cast<PetscInt>(cells.size()); ++cell) {
-    const auto corners = corners_of(cells[cell]);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const PetscInt other = beyond(cell, corners[k], corners[(k + 1) % corners.size()], cells, around);
-      if (other >= 0) graph.entries.push_back(other);
-    }
+    for (int k = 0; k < static_cast<int>(corners_of(cells[cell]).size()); ++k)
+      find_beyond({cell, k}, cells, around, beyond);
+    std::ranges::copy_if(beyond[cell], std::back_inserter(graph.entries),
+                         [](PetscInt other) { return other >= 0; });
     std::sort(graph.entries.begin() + graph.start.back(), graph.entries.end());
     graph.start.push_back(static_cast<PetscInt>(graph.entries.size()));
   }

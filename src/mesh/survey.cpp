@@ -45,7 +45,6 @@ class Survey {
         }
         known = static_cast<int>(r);
         ++region.cells;
-        region.area += mesh_.cell(cell).area();
       }
       if (region.cells > 0) continue;
       fault_ = "mesh '" + source_.file + "': region '" + region.name +
@@ -96,6 +95,8 @@ class Survey {
           "mesh '" + source_.file + "': the cell at " + at(centre(shape)) +
           " belongs to no region; put its surface in a Physical Surface (known: " + names(whole_.regions) +
           ")";
+    else
+      whole_.regions[region_of_[cell]].area += shape.area();
   }
 
   void boundaries() {
