@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "gmsh_check.hpp"
+#include "gmsh_sections.hpp"
 
 namespace slipscale::mesh_stages {
 namespace {
@@ -17,12 +17,9 @@ std::uint64_t fnv1a(const std::string& bytes) {
   return hash;
 }
 
-std::vector<PhysicalName> physical_names(const std::string& bytes) {
+std::vector<PhysicalName> physical_names(std::string_view text) {
   std::vector<PhysicalName> names;
-  const auto start = bytes.find("$PhysicalNames");
-  if (start == std::string::npos) return names;
-  const auto end = bytes.find("$EndPhysicalNames", start);
-  std::istringstream section(bytes.substr(start, end - start));
+  std::istringstream section{std::string(text)};
   std::string line;
   std::getline(section, line);
   std::getline(section, line);
@@ -40,7 +37,7 @@ std::vector<PhysicalName> physical_names(const std::string& bytes) {
 
 }  // namespace
 
-GmshFile scan_gmsh(const std::string& path, std::string& fault) {
+GmshFile read_gmsh(const std::string& path, std::string& fault) {
   GmshFile file;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || !std::filesystem::is_regular_file(path)) {
@@ -56,12 +53,14 @@ GmshFile scan_gmsh(const std::string& path, std::string& fault) {
     fault = "-mesh_file: '" + path + "' is not a gmsh mesh; write one with gmsh -2 -format msh41";
     return file;
   }
-  const GmshCheck check = check_gmsh(bytes);
-  if (!check.fault.empty()) fault = "mesh '" + path + "' " + check.fault;
-  file.vouched = check.vouched;
+  const GmshSections sections(bytes);
+  GmshText text = read_gmsh_text(bytes, sections);
+  if (!text.fault.empty()) fault = "mesh '" + path + "' " + text.fault;
+  file.mesh = std::move(text.mesh);
+  file.is_read = file.mesh.has_value();
   file.checksum = fnv1a(bytes);
-  file.names = physical_names(bytes);
-  file.has_periodic_section = bytes.find("\n$Periodic") != std::string::npos;
+  file.names = physical_names(sections.text("PhysicalNames"));
+  file.has_periodic_section = sections.has("Periodic");
   return file;
 }
 

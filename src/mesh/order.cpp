@@ -1,65 +1,53 @@
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <numeric>
-#include <span>
 
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
-namespace {
 
-/// The nodes of a cell; the places that it has no node for hold the largest number.
-using CellNodes = std::array<PetscInt, 4>;
-constexpr PetscInt none = std::numeric_limits<PetscInt>::max();
-
-std::span<const PetscInt> nodes_of(const CellNodes& cell) { return {cell.data(), cell[3] == none ? 3u : 4u}; }
-
-/// Nodes that share a cell, as compressed rows; diagonal included, as PETSc's ordering expects.
-struct NodeGraph {
-  std::vector<PetscInt> start, neighbours;
-};
-
-/// The cells around each node, as compressed rows.
-NodeGraph cells_around(const std::vector<CellNodes>& cells, PetscInt node_count) {
-  NodeGraph around;
-  around.start.assign(static_cast<std::size_t>(node_count) + 1, 0);
-  for (const CellNodes& cell : cells)
-    for (const PetscInt node : nodes_of(cell)) ++around.start[node + 1];
+Rows cells_around(const std::vector<CellVertices>& cells, PetscInt vertices) {
+  Rows around;
+  around.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
+  for (const CellVertices& cell : cells)
+    for (const PetscInt vertex : corners_of(cell)) ++around.start[vertex + 1];
   std::partial_sum(around.start.begin(), around.start.end(), around.start.begin());
-  around.neighbours.resize(static_cast<std::size_t>(around.start.back()));
+  around.entries.resize(static_cast<std::size_t>(around.start.back()));
   std::vector<PetscInt> next = around.start;
   for (std::size_t k = 0; k < cells.size(); ++k)
-    for (const PetscInt node : nodes_of(cells[k])) around.neighbours[next[node]++] = static_cast<PetscInt>(k);
+    for (const PetscInt vertex : corners_of(cells[k]))
+      around.entries[next[vertex]++] = static_cast<PetscInt>(k);
   return around;
 }
 
-NodeGraph node_graph(const std::vector<CellNodes>& cells, PetscInt node_count) {
-  const NodeGraph around = cells_around(cells, node_count);
-  NodeGraph graph;
+namespace {
+
+/// Nodes that share a cell, ascending; the node itself included, as PETSc's ordering expects.
+Rows node_graph(const std::vector<CellVertices>& cells, PetscInt node_count) {
+  const Rows around = cells_around(cells, node_count);
+  Rows graph;
+  graph.start.reserve(static_cast<std::size_t>(node_count) + 1);
   graph.start.push_back(0);
-  graph.neighbours.reserve(2 * around.neighbours.size());
-  std::vector<PetscInt> row;
+  graph.entries.reserve(2 * around.entries.size());
+  std::vector<PetscInt> last_seen_by(static_cast<std::size_t>(node_count), -1);
   for (PetscInt node = 0; node < node_count; ++node) {
-    row.clear();
-    for (PetscInt k = around.start[node]; k < around.start[node + 1]; ++k) {
-      const auto nodes = nodes_of(cells[around.neighbours[k]]);
-      row.insert(row.end(), nodes.begin(), nodes.end());
-    }
-    std::ranges::sort(row);
-    const auto [end, last] = std::ranges::unique(row);
-    graph.neighbours.insert(graph.neighbours.end(), row.begin(), end);
-    graph.start.push_back(static_cast<PetscInt>(graph.neighbours.size()));
+    for (const PetscInt cell : around[node])
+      for (const PetscInt other : corners_of(cells[cell])) {
+        if (last_seen_by[other] == node) continue;
+        last_seen_by[other] = node;
+        graph.entries.push_back(other);
+      }
+    std::sort(graph.entries.begin() + graph.start.back(), graph.entries.end());
+    graph.start.push_back(static_cast<PetscInt>(graph.entries.size()));
   }
   return graph;
 }
 
 /// Reverse Cuthill-McKee: neighbours get close numbers, so a sweep over the nodes stays in the cache.
-std::vector<PetscInt> reverse_cuthill_mckee(NodeGraph& graph, PetscInt node_count) {
-  std::vector<PetscScalar> values(graph.neighbours.size(), 1.0);
+std::vector<PetscInt> reverse_cuthill_mckee(Rows& graph, PetscInt node_count) {
+  std::vector<PetscScalar> values(graph.entries.size(), 1.0);
   OwnedMat matrix;
   petsc(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, node_count, node_count, graph.start.data(),
-                                  graph.neighbours.data(), values.data(), matrix.put()));
+                                  graph.entries.data(), values.data(), matrix.put()));
   OwnedIS rows, columns;
   petsc(MatGetOrdering(matrix, MATORDERINGRCM, rows.put(), columns.put()));
   const PetscInt* old_of_new = nullptr;
@@ -70,33 +58,36 @@ std::vector<PetscInt> reverse_cuthill_mckee(NodeGraph& graph, PetscInt node_coun
   return new_of_old;
 }
 
+/// The cells by their node numbers, the lowest first: sorted within bins of one lowest number each.
+std::vector<PetscInt> number_cells(std::vector<CellVertices> cells,
+                                   const std::vector<PetscInt>& node_number) {
+  Rows bins;  // the cells of each lowest number
+  bins.start.assign(node_number.size() + 1, 0);
+  for (CellVertices& cell : cells) {
+    const std::size_t n = corners_of(cell).size();
+    for (std::size_t k = 0; k < n; ++k) cell[k] = node_number[cell[k]];
+    std::sort(cell.begin(), cell.begin() + n);
+    if (n == 3) cell[3] = PETSC_MAX_INT;  // behind a quadrilateral that begins alike
+    ++bins.start[cell[0] + 1];
+  }
+  std::partial_sum(bins.start.begin(), bins.start.end(), bins.start.begin());
+  bins.entries.resize(cells.size());
+  std::vector<PetscInt> next = bins.start;
+  for (std::size_t k = 0; k < cells.size(); ++k) bins.entries[next[cells[k][0]]++] = static_cast<PetscInt>(k);
+  for (std::size_t bin = 0; bin < node_number.size(); ++bin)
+    std::sort(bins.entries.begin() + bins.start[bin], bins.entries.begin() + bins.start[bin + 1],
+              [&](PetscInt a, PetscInt b) { return cells[a] < cells[b]; });
+  std::vector<PetscInt> number(cells.size());
+  for (std::size_t k = 0; k < cells.size(); ++k) number[bins.entries[k]] = static_cast<PetscInt>(k);
+  return number;
+}
+
 }  // namespace
 
-std::vector<PetscInt> whole_mesh_order(DM dm, const PlexGeometry& plex) {
-  PetscInt points = 0, cell_begin = 0, cell_end = 0, node_begin = 0, node_end = 0;
-  petsc(DMPlexGetChart(dm, nullptr, &points));
-  petsc(DMPlexGetHeightStratum(dm, 0, &cell_begin, &cell_end));
-  petsc(DMPlexGetDepthStratum(dm, 0, &node_begin, &node_end));
-  std::vector<CellNodes> cells(static_cast<std::size_t>(cell_end - cell_begin), {none, none, none, none});
-  for (PetscInt cell = cell_begin; cell < cell_end; ++cell)
-    std::ranges::transform(plex.vertices(cell), cells[cell - cell_begin].begin(),
-                           [&](PetscInt vertex) { return vertex - node_begin; });
-  NodeGraph graph = node_graph(cells, node_end - node_begin);
-  const auto node_number = reverse_cuthill_mckee(graph, node_end - node_begin);
-
-  for (auto& cell : cells) {
-    for (PetscInt& node : cell)
-      if (node != none) node = node_number[node];
-    std::ranges::sort(cell);
-  }
-  std::vector<PetscInt> sorted(cells.size());
-  std::iota(sorted.begin(), sorted.end(), 0);
-  std::sort(sorted.begin(), sorted.end(), [&](PetscInt a, PetscInt b) { return cells[a] < cells[b]; });
-
-  std::vector<PetscInt> number(static_cast<std::size_t>(points), -1);
-  for (std::size_t k = 0; k < sorted.size(); ++k) number[cell_begin + sorted[k]] = static_cast<PetscInt>(k);
-  for (PetscInt node = node_begin; node < node_end; ++node) number[node] = node_number[node - node_begin];
-  return number;
+void number_whole(Whole& whole) {
+  Rows graph = node_graph(whole.plain.cells, whole.node_count);
+  whole.node_number = reverse_cuthill_mckee(graph, whole.node_count);
+  whole.cell_number = number_cells(whole.plain.cells, whole.node_number);
 }
 
 }  // namespace slipscale::mesh_stages

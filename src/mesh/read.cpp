@@ -20,6 +20,7 @@ void broadcast(MPI_Comm comm, GmshFile& file) {
   MPI_Bcast(&count, 1, MPI_INT, 0, comm);
   MPI_Bcast(&file.checksum, 1, MPI_UINT64_T, 0, comm);
   MPI_Bcast(&file.has_periodic_section, 1, MPI_CXX_BOOL, 0, comm);
+  MPI_Bcast(&file.is_read, 1, MPI_CXX_BOOL, 0, comm);
   file.names.resize(static_cast<std::size_t>(count));
   for (auto& entry : file.names) {
     MPI_Bcast(&entry.dimension, 1, MPI_INT, 0, comm);
@@ -28,13 +29,13 @@ void broadcast(MPI_Comm comm, GmshFile& file) {
   }
 }
 
-GmshFile head_of(MPI_Comm comm, const std::string& path) {
+GmshFile read_file(MPI_Comm comm, const std::string& path) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   GmshFile file;
   std::string fault;
   if (rank == 0) {
-    file = mesh_stages::scan_gmsh(path, fault);
+    file = mesh_stages::read_gmsh(path, fault);
     if (fault.empty() && file.version < 4 && file.has_periodic_section)
       fault = "mesh '" + path +
               "' is periodic but written as MSH 2, which loses periodicity; use gmsh -format msh41";
@@ -89,12 +90,13 @@ MeshSource periodic_mesh_source(const Options& options) {
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   Mesh mesh;
   mesh.file = source.file;
-  const GmshFile file = head_of(comm, source.file);
+  GmshFile file = read_file(comm, source.file);
   if (source.cut_by_choice && !file.has_periodic_section)
     throw UserError("-mesh_periodic false has no effect: mesh '" + source.file +
                     "' is not periodic; leave the option out");
   mesh.checksum = file.checksum;
-  mesh_stages::distribute(comm, mesh_stages::load_whole(comm, source, file), source.partitioner, mesh);
+  mesh_stages::distribute(comm, mesh_stages::load_whole(comm, source, std::move(file)), source.partitioner,
+                          mesh);
   return mesh;
 }
 

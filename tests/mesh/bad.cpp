@@ -141,6 +141,25 @@ TEST_F(BadMesh, NumbersThatLeadNowhere) {
   expect(complaint(file), "node tag 3", "write it again");
 }
 
+/// A block of lines cannot be part of a surface, nor a block of cells part of a curve.
+TEST_F(BadMesh, CellsOfACurve) {
+  file.elements = replaced(file.elements, "2 1 2 2\n", "1 1 2 2\n");
+  expect(complaint(file), "$Entities does not list", "write it again");
+}
+
+TEST_F(BadMesh, PeriodsThatLeadNowhere) {
+  file.more = "$Periodic\n1\n1 1 1\n0\n1\n4 9\n$EndPeriodic\n";
+  expect(complaint(file), "$Periodic names node 9", "write it again");
+  file.more = "$Periodic\n1\n1 1 1\n0\n3\n1 2\n2 3\n3 2\n$EndPeriodic\n";
+  expect(complaint(file), "in a circle", "write it again");
+}
+
+/// The model is plane, yet what is no number stands for a damaged file.
+TEST_F(BadMesh, NotANumberForTheThirdCoordinate) {
+  file.nodes = replaced(file.nodes, "1 1 0\n", "1 1 nan\n");
+  expect(complaint(file), "not a number", "write it again");
+}
+
 TEST_F(BadMesh, UnknownSection) {
   file.more = "$Nonsense\n1\n$EndNonsense\n";
   file.format = "4.1 0 8\n$EndMeshFormat\n$Nonsense\n1\n$EndNonsense\n$MeshFormat\n4.1 0 8\n";

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 
 #include "whole.hpp"
@@ -25,6 +27,33 @@ TEST(Numbering, DoesNotDependOnRanksOrPartitioner) {
         EXPECT_EQ(mesh.nodes.number[mesh.cells.corner_nodes[here]], whole.cells.corner_nodes[there]);
         EXPECT_EQ(mesh.cells.corners[here], whole.cells.corners[there]);
       }
+    }
+  }
+}
+
+/// Edges between two cells too: which of the two they belong to is a matter of the whole mesh.
+TEST(Numbering, BoundaryEdgesDoNotDependOnRanksOrPartitioner) {
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c), whole = whole_mesh_of(c);
+    for (std::size_t b = 0; b < whole.boundaries.size(); ++b) {
+      std::map<std::pair<PetscInt, PetscInt>, const BoundaryEdge*> there;
+      for (const BoundaryEdge& edge : whole.boundaries[b].edges)
+        there[{edge.nodes[0], edge.nodes[1]}] = &edge;
+      std::set<std::pair<PetscInt, PetscInt>> here;
+      for (const BoundaryEdge& edge : mesh.boundaries[b].edges) {
+        const std::pair ends(mesh.nodes.number[edge.nodes[0]], mesh.nodes.number[edge.nodes[1]]);
+        here.insert(ends);
+        ASSERT_TRUE(there.contains(ends));
+        EXPECT_EQ(edge.ends, there[ends]->ends);
+        EXPECT_EQ(edge.outward, there[ends]->outward);
+      }
+      const auto is_owned = [&](PetscInt number) {
+        return std::binary_search(mesh.nodes.number.begin(), mesh.nodes.number.begin() + mesh.nodes.owned,
+                                  number);
+      };
+      for (const auto& [ends, edge] : there)
+        EXPECT_EQ(here.contains(ends), is_owned(ends.first) || is_owned(ends.second));
     }
   }
 }
@@ -87,6 +116,30 @@ TEST(Partition, IsRepeatable) {
   EXPECT_EQ(once.nodes.number, again.nodes.number);
   EXPECT_EQ(once.cells.number, again.cells.number);
   EXPECT_EQ(once.partition.edge_cut, again.partition.edge_cut);
+}
+
+TEST(Partition, CountsTheEdgesItCuts) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  for (const Case& c : all_cases()) {
+    SCOPED_TRACE(testing::Message() << c);
+    const Mesh mesh = mesh_of(c), whole = whole_mesh_of(c);
+    std::vector<int> owner(static_cast<std::size_t>(mesh.cells.total), 0);
+    for (int cell = 0; cell < mesh.cells.size(); ++cell)
+      if (mesh.cells.owned[cell]) owner[mesh.cells.number[cell]] = rank;
+    MPI_Allreduce(MPI_IN_PLACE, owner.data(), static_cast<int>(owner.size()), MPI_INT, MPI_SUM,
+                  PETSC_COMM_WORLD);
+    std::map<std::pair<int, int>, std::set<int>> owners;  // of the cells beside each edge
+    for (int cell = 0; cell < whole.cells.size(); ++cell)
+      for (int k = 0, n = whole.cells.corner_count(cell); k < n; ++k) {
+        const int first = whole.cells.first[cell];
+        owners[std::minmax(whole.cells.corner_nodes[first + k],
+                           whole.cells.corner_nodes[first + (k + 1) % n])]
+            .insert(owner[cell]);
+      }
+    EXPECT_EQ(mesh.partition.edge_cut,
+              std::ranges::count_if(owners, [](const auto& edge) { return edge.second.size() == 2; }));
+  }
 }
 
 TEST(Partition, ReportsWhatEachRankHolds) {

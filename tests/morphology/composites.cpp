@@ -7,6 +7,7 @@
 
 #include "block_mesh.hpp"
 #include "msh_file.hpp"
+#include "scenes.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/morphology/compose.hpp"
@@ -14,6 +15,7 @@
 
 using namespace slipscale;
 using testing_support::MshFile;
+using testing_support::outer_edge_count;
 using testing_support::read_msh;
 using testing_support::scratch;
 
@@ -123,19 +125,6 @@ std::vector<double> areas_in_file(const MshFile& file, const std::vector<Inclusi
   return areas;
 }
 
-/// Edges of the mesh with a cell on one side only.
-long boundary_edges(const Mesh& mesh) {
-  PetscInt from, to;
-  petsc(DMPlexGetHeightStratum(mesh.dm.get(), 1, &from, &to));
-  long count = 0;
-  for (PetscInt edge = from; edge < to; ++edge) {
-    PetscInt cells;
-    petsc(DMPlexGetSupportSize(mesh.dm.get(), edge, &cells));
-    count += cells == 1;
-  }
-  return count;
-}
-
 void check_pairs(const MshFile& file, const Room& room) {
   std::size_t along[2] = {0, 0};
   for (const MshFile::Pair& pair : file.pairs) {
@@ -187,7 +176,7 @@ TEST(Composites, MeetEveryPromise) {
     const Mesh mesh = read_mesh(PETSC_COMM_WORLD, {path});
     EXPECT_EQ(mesh.cells.total, static_cast<PetscInt>(composed.mesh.cells.size()));
     if (recipe.room.periodic[0] && recipe.room.periodic[1]) {
-      EXPECT_EQ(boundary_edges(mesh), 0);
+      EXPECT_EQ(outer_edge_count(mesh), 0);
     }
     const MshFile file = read_msh(path);
     check_pairs(file, recipe.room);

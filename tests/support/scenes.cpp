@@ -1,6 +1,8 @@
 #include "scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace slipscale::testing_support {
 
@@ -8,6 +10,26 @@ Mesh block_mesh(const Block& block, Partitioner partitioner, int refine) {
   const std::string path = scratch("block.msh");
   write_block(block, path);
   return read_mesh(PETSC_COMM_WORLD, {path, partitioner, refine});
+}
+
+PetscInt outer_edge_count(const Mesh& mesh) {
+  // Every cell beside an owned one is local, those of other ranks included.
+  struct Sides {
+    int all = 0, owned = 0;
+  };
+  std::map<std::pair<int, int>, Sides> edges;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell)
+    for (int k = 0, n = mesh.cells.corner_count(cell); k < n; ++k) {
+      const int first = mesh.cells.first[cell], a = mesh.cells.corner_nodes[first + k],
+                b = mesh.cells.corner_nodes[first + (k + 1) % n];
+      Sides& sides = edges[std::minmax(a, b)];
+      ++sides.all;
+      sides.owned += mesh.cells.owned[cell];
+    }
+  PetscInt count = 0;
+  for (const auto& [ends, sides] : edges) count += sides.all == 1 && sides.owned == 1;
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
+  return count;
 }
 
 Material isotropic(double young, double poisson, double density) {

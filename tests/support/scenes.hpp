@@ -12,6 +12,9 @@ namespace slipscale::testing_support {
 /// Writes a block to a scratch file and reads it back as a partitioned mesh.
 Mesh block_mesh(const Block& block, Partitioner partitioner = Partitioner::metis, int refine = 0);
 
+/// Edges with a cell on one side only, of the whole mesh. Collective on PETSC_COMM_WORLD.
+PetscInt outer_edge_count(const Mesh& mesh);
+
 Material isotropic(double young, double poisson, double density);
 
 /// Value at the owned node nearest to `x`, the same on every rank: component `axis` of `field` [owned].

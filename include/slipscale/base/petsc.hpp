@@ -41,6 +41,7 @@ using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedDM = Owned<DM, DMDestroy>;
 using OwnedSF = Owned<PetscSF, PetscSFDestroy>;
+using OwnedSection = Owned<PetscSection, PetscSectionDestroy>;
 using OwnedIS = Owned<IS, ISDestroy>;
 
 }  // namespace slipscale

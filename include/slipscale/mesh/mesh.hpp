@@ -69,7 +69,8 @@ struct PartitionReport {
   PetscInt edge_cut = 0;  ///< edges between cells of different owners
 };
 
-/// A partitioned plane mesh: the DMPlex, and what the numerics read of it in plain arrays.
+/// A partitioned plane mesh: the DMPlex of its cells and vertices, and what the numerics read of it in plain
+/// arrays.
 ///
 /// The order of nodes and cells belongs to the whole mesh and is fixed before it is partitioned, so that sums
 /// taken in that order give the same bits on any number of ranks. Every cell around an owned node is local.
