@@ -6,9 +6,11 @@ The environment says where the programs are: SLIPSCALE_SLIDE, SLIPSCALE_MORPHOLO
 import csv
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -67,6 +69,29 @@ class StudyCase(unittest.TestCase):
     def run_again(self, before):
         """Of `written()`, what ended anew since `before`."""
         return {name for name, end in self.written().items() if end != before.get(name)}
+
+    def runs_written(self):
+        """Of `written()`, the runs."""
+        return {name: end for name, end in self.written().items() if name.startswith("run/")}
+
+    def check_going_on_after_a_kill(self, runs, at_work=1, **changes):
+        """Kills the study of so many `runs` once two have ended, lets it go on and complete. Of those that had ended as
+        many as are `at_work` at a time may be run again: the engine may not have taken note of them."""
+        study = subprocess.Popen(self.command(**changes), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL, env=self.environment(), start_new_session=True)
+        end = time.monotonic() + SECONDS
+        while len(self.runs_written()) < 2 and study.poll() is None and time.monotonic() < end:
+            time.sleep(0.02)
+        os.killpg(study.pid, signal.SIGKILL)
+        study.wait(timeout=SECONDS)
+        before = self.runs_written()
+        self.assertTrue(2 <= len(before) < runs, before)
+        self.run_study("--unlock", **changes)
+        self.run_study("--rerun-incomplete", **changes)
+        after = self.runs_written()
+        self.assertEqual(len(after), runs)
+        self.assertLessEqual(sum(after[name] != before[name] for name in before), at_work)
+        self.assertEqual([row["status"] for row in self.table()], ["ok"] * runs)
 
 
 def main():

@@ -1,10 +1,5 @@
 """The study of homogenize's accuracy in small: what its table holds, what is run again, and what a failure leaves."""
 
-import os
-import signal
-import subprocess
-import time
-
 import studies
 from analysis.convergence import orders_from_errors
 
@@ -58,26 +53,8 @@ class Accuracy(studies.StudyCase):
         self.assertEqual(failed[0]["C11"], "")
         self.assertIn("did not converge", (self.out / "report.md").read_text())
 
-    def runs_written(self):
-        return {name: end for name, end in self.written().items() if name.startswith("run/")}
-
     def test_goes_on_after_it_was_killed(self):
-        study = subprocess.Popen(self.command(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                 stderr=subprocess.DEVNULL, env=self.environment(), start_new_session=True)
-        end = time.monotonic() + studies.SECONDS
-        while len(self.runs_written()) < 2 and study.poll() is None and time.monotonic() < end:
-            time.sleep(0.02)
-        os.killpg(study.pid, signal.SIGKILL)
-        study.wait(timeout=studies.SECONDS)
-        before = self.runs_written()
-        self.assertTrue(2 <= len(before) < 9, before)
-        self.run_study("--unlock")
-        self.run_study("--rerun-incomplete")
-        after = self.runs_written()
-        self.assertEqual(len(after), 9)
-        # The run that had just ended may have been killed before the engine took note of it.
-        self.assertLessEqual(sum(after[name] != before[name] for name in before), 1)
-        self.assertEqual([row["status"] for row in self.table()], ["ok"] * 9)
+        self.check_going_on_after_a_kill(runs=9)
 
     def test_a_mesh_that_fails(self):
         runs = {"sizes": {"element": "triangle", "size": [16, 100000], "repeat": 1}}

@@ -1,9 +1,6 @@
 """The sweep in small: what its table holds, options of every program, failures, what is run again, the command line."""
 
-import os
-import signal
 import subprocess
-import time
 
 import studies
 
@@ -102,27 +99,9 @@ class Sweep(studies.StudyCase):
             self.assertNotIn("Traceback", done.stdout + done.stderr)
             self.assertFalse(self.out.exists())
 
-    def runs_written(self):
-        return {name: end for name, end in self.written().items() if name.startswith("run/")}
-
     def test_goes_on_after_it_was_killed(self):
-        words = {"sweep": {"friction_coefficient": "0.1:0.1:0.8", "surface_speed": 2, "size": 1e-3}}
-        study = subprocess.Popen(self.command(**words), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                 stderr=subprocess.DEVNULL, env=self.environment(), start_new_session=True)
-        end = time.monotonic() + studies.SECONDS
-        while len(self.runs_written()) < 2 and study.poll() is None and time.monotonic() < end:
-            time.sleep(0.02)
-        os.killpg(study.pid, signal.SIGKILL)
-        study.wait(timeout=studies.SECONDS)
-        before = self.runs_written()
-        self.assertTrue(2 <= len(before) < 8, before)
-        self.run_study("--unlock", **words)
-        self.run_study("--rerun-incomplete", **words)
-        after = self.runs_written()
-        self.assertEqual(len(after), 8)
-        # The runs that had just ended may have been killed before the engine took note of it.
-        self.assertLessEqual(sum(after[name] != before[name] for name in before), 2)
-        self.assertEqual([row["status"] for row in self.table()], ["ok"] * 8)
+        self.check_going_on_after_a_kill(runs=8, at_work=2, sweep={
+            "friction_coefficient": "0.1:0.1:0.8", "surface_speed": 2, "size": 1e-3})
 
 
 class CommandLine(studies.StudyCase):
