@@ -3,7 +3,7 @@
     PYTHONPATH=runs python3 -m analysis.picture out/first picture.png
 
 Reading         reading (files of a run), mesh (cells, points in cells), effective (of homogenize), comparison (of relocalize)
-Measuring       regime (what a run did in a window), spectrum (Welch), distance (spectra, portraits, trajectories),
+Measuring       regime (what a run did in a window), spectrum (Welch), distance (of signals, spectra, portraits),
                 surface_motion (power through the contact), convergence (orders, Richardson), refined and refinement
                 (a sequence of runs), equivalence and morphologies (a block against morphologies), local_history
 Adapting        adapt (command), relaxation (formulas), search, trials, adapted (what came of it, for a table)

@@ -27,12 +27,6 @@ def mean_spectrum(spectra):
     return frequency, np.mean([np.interp(frequency, *each) for each in spectra], axis=0)
 
 
-def trajectory_distance(time, values, reference_time, reference, window, samples=2000):
-    """Relative L2 distance of two histories over `window` (s), both interpolated to the same `samples` times."""
-    at = np.linspace(*window, samples)
-    return relative_l2(np.interp(at, time, values), np.interp(at, reference_time, reference))
-
-
 def portrait_distance(portrait, reference):
     """Sliced Wasserstein distance of two phase portraits, pairs of u [n] and v [n], n may differ.
 
