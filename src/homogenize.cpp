@@ -8,10 +8,10 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/files/output_folder.hpp"
+#include "slipscale/homogenize/homogenised.hpp"
+#include "slipscale/homogenize/localisation_file.hpp"
 #include "slipscale/mesh/read.hpp"
-#include "slipscale/record/homogenised.hpp"
-#include "slipscale/record/localization_file.hpp"
-#include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
 
@@ -136,7 +136,7 @@ void homogenize(Options& options) {
 
   // Only now do the files of an older run give way.
   const OutputFolder folder(comm, choice.folder, {"effective.yaml", "localization.h5", "localization.xdmf"});
-  write_localization(comm, mesh, materials, found.solutions.front(), folder.path());
+  write_localisation(comm, mesh, materials, found.solutions.front(), folder.path());
   measure_costs(comm, start, found);
   folder.write_text("effective.yaml", effective_yaml(found, options.effective()));
   print(describe(found));

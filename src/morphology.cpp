@@ -6,10 +6,10 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/files/output_folder.hpp"
 #include "slipscale/morphology/compose.hpp"
 #include "slipscale/morphology/picture.hpp"
 #include "slipscale/morphology/report.hpp"
-#include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
 

@@ -7,18 +7,18 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
-#include "slipscale/cell/local_stress.hpp"
-#include "slipscale/record/comparison_report.hpp"
-#include "slipscale/record/fields_reader.hpp"
-#include "slipscale/record/local_histories.hpp"
-#include "slipscale/record/localization_reader.hpp"
-#include "slipscale/record/output_folder.hpp"
-#include "slipscale/record/progress.hpp"
-#include "slipscale/record/relocalization_choice.hpp"
-#include "slipscale/record/relocalization_report.hpp"
-#include "slipscale/record/relocalized_file.hpp"
-#include "slipscale/record/relocalized_statistics.hpp"
-#include "slipscale/record/stress_comparison.hpp"
+#include "slipscale/files/output_folder.hpp"
+#include "slipscale/files/progress.hpp"
+#include "slipscale/relocalize/comparison_report.hpp"
+#include "slipscale/relocalize/fields_reader.hpp"
+#include "slipscale/relocalize/local_histories.hpp"
+#include "slipscale/relocalize/local_stress.hpp"
+#include "slipscale/relocalize/localisation_reader.hpp"
+#include "slipscale/relocalize/relocalisation_choice.hpp"
+#include "slipscale/relocalize/relocalisation_report.hpp"
+#include "slipscale/relocalize/relocalised_file.hpp"
+#include "slipscale/relocalize/relocalised_statistics.hpp"
+#include "slipscale/relocalize/stress_comparison.hpp"
 
 using namespace slipscale;
 
@@ -36,10 +36,10 @@ RankShare share_of(MPI_Comm comm, const Targets& targets) {
 void refuse_strip_off_contact(const FieldsReader& run, const Targets& targets) {
   const double contact = run.block().lower[1], lowest = bounding_box(targets.grid).lower[1];
   if (std::abs(lowest - contact) > 1e-6 * run.block().extent(1))
-    throw UserError(
-        format("-relocalize_correction strip: the stress is relocalised from y = %g m on, and the contact is "
-               "at y = %g m; let an edge of the microstructure and of -fields_box lie on the contact",
-               lowest, contact));
+    throw UserError(format(
+        "-relocalize_correction strip: the stress is relocalised from y = {:g} m on, and the contact is "
+        "at y = {:g} m; let an edge of the microstructure and of -fields_box lie on the contact",
+        lowest, contact));
 }
 
 /// Of a run that took them. Throws UserError when they are damaged.
@@ -51,14 +51,14 @@ std::optional<StatisticsReader> statistics_of(MPI_Comm comm, const std::string& 
 
 void relocalize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
-  const RelocalizationChoice choice = read_relocalization(options);
+  const RelocalisationChoice choice = read_relocalisation(options);
   options.refuse_unread();
   for (const std::string& note : options.notes()) print(note + "\n");
 
   // Both scales, and where their meshes meet.
   const FieldsReader run(comm, choice.run);
   run.require("strain");
-  const LocalisationTensors tensors = read_localization(comm, choice.tensors);
+  const LocalisationTensors tensors = read_localisation(comm, choice.tensors);
   std::optional<FieldsReader> reference;
   if (choice.reference) reference.emplace(comm, choice.reference->folder, "relocalize_reference");
   const TwoScales scales(run.grid(), tensors.grid,
@@ -85,7 +85,7 @@ void relocalize(Options& options) {
   const OutputFolder folder(comm, choice.folder,
                             {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",
                              "relocalized_statistics.xdmf", "comparison.yaml"});
-  RelocalizedFile file(comm, targets.grid, mine, folder.path());
+  RelocalisedFile file(comm, targets.grid, mine, folder.path());
   std::vector<PlaneTensor> macro_strain(static_cast<std::size_t>(run.grid().cells()));
   Progress progress(choice.progress, 0, static_cast<double>(run.times().size()));
   for (std::size_t frame = 0; frame < run.times().size(); ++frame) {
@@ -102,7 +102,7 @@ void relocalize(Options& options) {
   file.close(histories.all());
 
   if (statistics)
-    write_relocalized_statistics(comm, *statistics, *mean_strain, targets.grid, mine, local, folder.path());
+    write_relocalised_statistics(comm, *statistics, *mean_strain, targets.grid, mine, local, folder.path());
   if (expected_statistics) comparison->add_statistics(*expected_statistics, *mean_strain, local);
   if (comparison) {
     Comparison found = comparison->finish();
@@ -120,5 +120,5 @@ int main(int argc, char** argv) {
       {"relocalize",
        "Stress and strain of the phases over time, C : A : E, from a homogeneous run of slide and the "
        "localisation tensors of homogenize; compared with a heterogeneous run where there is one.",
-       relocalization_schema(), relocalize});
+       relocalisation_schema(), relocalize});
 }

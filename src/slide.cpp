@@ -32,7 +32,7 @@ void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
   if (scene.surface)
-    print(format("surface below %s: height %g m, speed %g m/s; friction: ", scene.surface->boundary.c_str(),
+    print(format("surface below {}: height {:g} m, speed {:g} m/s; friction: ", scene.surface->boundary,
                  scene.surface->height, scene.surface->speed) +
           describe(scene.friction) + "\n");
 }

@@ -38,18 +38,6 @@ void print(const std::string& text) {
   std::fflush(stdout);
 }
 
-std::string format(const char* pattern, ...) {
-  std::va_list arguments, again;
-  va_start(arguments, pattern);
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
-  std::string text(static_cast<std::size_t>(std::max(length, 0)), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  va_end(again);
-  return text;
-}
-
 std::string table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
@@ -79,14 +67,14 @@ std::string engineering(double value, const std::string& unit) {
                                                            "k", "M", "G", "T", "P", "E", "Z", "Y"};
   const std::string tail = unit.empty() || unit == "1" ? "" : " " + unit;
   if (value == 0) return "0" + tail;
-  if (!std::isfinite(value) || !takes_prefix(unit)) return format("%.4g", value) + tail;
+  if (!std::isfinite(value) || !takes_prefix(unit)) return format("{:.4g}", value) + tail;
   // The exponent of the value as it will be printed: 999.96 rounds to 1000, which is the next prefix.
-  const std::string rounded = format("%.3e", value);
+  const std::string rounded = format("{:.3e}", value);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
   const int step = static_cast<int>(std::floor(exponent / 3.0));
   if (step < -8 || step > 8) return rounded + tail;
   const int decimals = 3 - (exponent - 3 * step);
-  return format("%.*f", decimals, value / std::pow(10.0, 3 * step)) + " " +
+  return format("{:.{}f}", value / std::pow(10.0, 3 * step), decimals) + " " +
          prefixes[static_cast<std::size_t>(step + 8)] + unit;
 }
 

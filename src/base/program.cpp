@@ -89,7 +89,7 @@ int run_in_petsc(const Program& program, CommandLine line, const std::vector<std
 }
 
 std::string version_line(const std::string& program) {
-  return format("%s %s, PETSc %d.%d.%d\n", program.c_str(), version, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
+  return format("{} {}, PETSc {}.{}.{}\n", program, version, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
                 PETSC_VERSION_SUBMINOR);
 }
 

@@ -49,7 +49,7 @@ std::string place(const std::string& text) {
   if (good == lines.size()) return "";
   std::string shown = lines[good];
   shown.erase(0, std::min(shown.find_first_not_of(" \t\r"), shown.size()));
-  return format(" near line %zu (%.60s)", good + 1, shown.c_str());
+  return format(" near line {} ({:.60})", good + 1, shown);
 }
 
 /// Who wrote what so far, and where PETSc is reading now.

@@ -87,11 +87,12 @@ FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
 
 std::string describe(const FrictionChoice& choice) {
   if (choice.law == FrictionChoice::Law::none) return "none";
-  const std::string mu = format("mu %g", choice.coefficient);
+  const std::string mu = format("mu {:g}", choice.coefficient);
   if (choice.law == FrictionChoice::Law::coulomb) return "coulomb, " + mu;
-  const std::string relaxation = choice.by_slip_rate ? format("T = L/(|slip rate| + V*), L %g m, V* %g m/s",
-                                                              choice.length, choice.rate_reference)
-                                                     : "T " + engineering(choice.time, "s");
+  const std::string relaxation =
+      choice.by_slip_rate
+          ? format("T = L/(|slip rate| + V*), L {:g} m, V* {:g} m/s", choice.length, choice.rate_reference)
+          : "T " + engineering(choice.time, "s");
   return "regularized, " + mu + ", " + relaxation + ", threshold " +
          (choice.stored_strength ? "regularized" : "instantaneous");
 }

@@ -18,7 +18,7 @@ std::optional<double> prescribed(const Options& options, const std::string& name
 
 std::string component_text(const std::optional<double>& displacement) {
   if (!displacement) return "free";
-  return *displacement == 0 ? "fixed" : format("%g m", *displacement);
+  return *displacement == 0 ? "fixed" : format("{:g} m", *displacement);
 }
 
 /// Whether some edge of the boundary faces along x, along y. Collective.

@@ -121,13 +121,14 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   choice.step = time.step ? *time.step : time.safety * choice.limit;
   if (choice.step > choice.limit)
     throw UserError(
-        format("-time_step is %.6g s, above the stable step of %.6g s for this mesh, beta2 and damping; "
-               "use at most %.4g or auto",
+        format("-time_step is {:.6g} s, above the stable step of {:.6g} s for this mesh, beta2 and damping; "
+               "use at most {:.4g} or auto",
                choice.step, choice.limit, 0.99 * choice.limit));
   const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
   if (!(count <= most_steps))
-    throw UserError(format("-time_end is %g s, which takes %g steps of %g s; a run has at most %g steps",
-                           time.end, count, choice.step, most_steps));
+    throw UserError(
+        format("-time_end is {:g} s, which takes {:g} steps of {:g} s; a run has at most {:g} steps",
+               time.end, count, choice.step, most_steps));
   choice.count = static_cast<long>(count);
   return choice;
 }
@@ -139,16 +140,15 @@ std::string describe(const TimeStep& step, const Model& model) {
                      ", shortest edge " + engineering(mesh.shortest_edge, "m") + "\n";
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
     const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
-    text += format("  waves along y in %s: %.5g and %.5g m/s, crossing the height in %s\n",
-                   mesh.regions[r].name.c_str(), speeds.fast, speeds.slow,
-                   engineering(size[1] / speeds.fast, "s").c_str());
+    text += format("  waves along y in {}: {:.5g} and {:.5g} m/s, crossing the height in {}\n",
+                   mesh.regions[r].name, speeds.fast, speeds.slow, engineering(size[1] / speeds.fast, "s"));
   }
-  text += format("largest frequency: %.4g 1/s (Lanczos), at most %.4g 1/s (largest element)\n",
+  text += format("largest frequency: {:.4g} 1/s (Lanczos), at most {:.4g} 1/s (largest element)\n",
                  step.frequency.sharp, step.frequency.safe);
   text += "stable step: " + engineering(step.limit, "s") + " (Lanczos), " +
           engineering(step.safe_limit, "s") +
           " (largest element); step used: " + engineering(step.step, "s") +
-          format(" (%.3f of the limit), %ld steps\n", step.step / step.limit, step.count);
+          format(" ({:.3f} of the limit), {} steps\n", step.step / step.limit, step.count);
   return text;
 }
 

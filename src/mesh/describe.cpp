@@ -31,7 +31,7 @@ double Mesh::area() const {
 
 std::string describe(const Mesh& mesh, const std::vector<std::string>& region_materials) {
   std::string text =
-      format("mesh %s: %lld nodes, %lld cells, x %g to %g m, y %g to %g m%s\n", mesh.file.c_str(),
+      format("mesh {}: {} nodes, {} cells, x {:g} to {:g} m, y {:g} to {:g} m{}\n", mesh.file,
              static_cast<long long>(mesh.nodes.total), static_cast<long long>(mesh.cells.total),
              mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1],
              mesh.periodic[0] && mesh.periodic[1] ? ", periodic in x and y"
@@ -42,11 +42,12 @@ std::string describe(const Mesh& mesh, const std::vector<std::string>& region_ma
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const Region& region = mesh.regions[r];
     rows.push_back({region.name, std::to_string(region.tag), std::to_string(region.cells),
-                    format("%.4g m2", region.area), r < region_materials.size() ? region_materials[r] : ""});
+                    format("{:.4g} m2", region.area),
+                    r < region_materials.size() ? region_materials[r] : ""});
   }
   for (const Boundary& boundary : mesh.boundaries)
     rows.push_back({boundary.name, std::to_string(boundary.tag), std::to_string(boundary.edge_count),
-                    format("%.4g m", boundary.length), boundary.interior ? "(interior)" : ""});
+                    format("{:.4g} m", boundary.length), boundary.interior ? "(interior)" : ""});
   text += table(rows);
 
   const PartitionReport& parts = mesh.partition;
@@ -55,8 +56,7 @@ std::string describe(const Mesh& mesh, const std::vector<std::string>& region_ma
     rows.push_back({std::to_string(r), std::to_string(parts.owned_cells[r]),
                     std::to_string(parts.overlap_cells[r]), std::to_string(parts.owned_nodes[r]),
                     std::to_string(parts.ghost_nodes[r])});
-  if (rows.size() > 2)
-    text += table(rows) + format("edge cut %lld\n", static_cast<long long>(parts.edge_cut));
+  if (rows.size() > 2) text += table(rows) + format("edge cut {}\n", static_cast<long long>(parts.edge_cut));
   return text;
 }
 

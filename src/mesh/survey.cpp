@@ -7,7 +7,7 @@
 namespace slipscale::mesh_stages {
 namespace {
 
-std::string at(const Vector2& x) { return format("(%g, %g) m", x[0], x[1]); }
+std::string at(const Vector2& x) { return format("({:g}, {:g}) m", x[0], x[1]); }
 
 Vector2 centre(const CellGeometry& cell) {
   Vector2 sum{};

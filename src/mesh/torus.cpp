@@ -40,7 +40,7 @@ std::vector<char> near_seam(const PlainMesh& mesh) {
 
 std::string too_narrow(const MeshSource& source, const Vector2& place) {
   return "mesh '" + source.file + "' has fewer than three cells across a period near " +
-         format("(%g, %g) m", place[0], place[1]) + "; mesh it finer";
+         format("({:g}, {:g}) m", place[0], place[1]) + "; mesh it finer";
 }
 
 std::string fault_in_torus(const PlainMesh& mesh, const MeshSource& source) {

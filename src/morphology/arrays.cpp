@@ -25,8 +25,8 @@ class ArrayPlacer {
   Placement place() {
     if (hexagonal() && room_.periodic[1] && array_.rows % 2)
       throw UserError(
-          format("-rows %d: a hexagonal array that is periodic along y has an even number of rows; "
-                 "give %d",
+          format("-rows {}: a hexagonal array that is periodic along y has an even number of rows; "
+                 "give {}",
                  array_.rows, array_.rows + 1));
     const Inclusion inclusion = model();
     refuse_too_close(inclusion);
@@ -89,15 +89,15 @@ class ArrayPlacer {
     }
     if (fits < 1e-9 * too_large || fits == 0)
       throw UserError(
-          format("-gap %g is larger than the spacing of the array, %g m by %g m; give a smaller gap, "
+          format("-gap {:g} is larger than the spacing of the array, {:g} m by {:g} m; give a smaller gap, "
                  "or fewer -columns and -rows",
                  room_.gap, spacing_[0], spacing_[1]));
     const double fraction = area(of_diameter(fits)) / area_for_each();
     const bool by_diameter = family_.diameter > 0;
     const double given = by_diameter ? family_.diameter : family_.fraction;
     throw UserError(
-        format("-%s %g leaves %g m between the inclusions of the array, less than the gap of %g m; "
-               "give at most %.3g, or a smaller -gap",
+        format("-{} {:g} leaves {:g} m between the inclusions of the array, less than the gap of {:g} m; "
+               "give at most {:.3g}, or a smaller -gap",
                by_diameter ? "diameter" : "fraction", given, gap, room_.gap,
                rounded_down(by_diameter ? fits : fraction)));
   }
@@ -118,7 +118,7 @@ class ArrayPlacer {
       const int last = array_.columns - (shifted && short_rows() ? 1 : 0);
       for (int i = first; i < last; ++i) {
         const double x = std::fmod(i + (shifted ? 1.0 : 0.5), array_.columns + (cut ? 1 : 0));
-        inclusion.centre = room_.block.low + Vector2{x * spacing_[0], (j + 0.5) * spacing_[1]};
+        inclusion.centre = room_.block.lower + Vector2{x * spacing_[0], (j + 0.5) * spacing_[1]};
         placement_.inclusions.push_back(inclusion);
       }
     }

@@ -25,7 +25,7 @@ void Cells::add(int index, const Vector2& centre, double radius) {
 Cells::Span Cells::span(const Vector2& x, double radius) const {
   Span at;
   for (int axis = 0; axis < 2; ++axis) {
-    const double size = domain_.extent(axis) / count_[axis], rest = x[axis] - domain_.box.low[axis];
+    const double size = domain_.extent(axis) / count_[axis], rest = x[axis] - domain_.box.lower[axis];
     at.low[axis] = static_cast<int>(std::floor((rest - radius) / size));
     at.high[axis] = static_cast<int>(std::floor((rest + radius) / size));
     if (domain_.periodic[axis]) continue;

@@ -14,11 +14,11 @@ struct Domain {
   Box box;
   std::array<bool, 2> periodic{};
 
-  double extent(int axis) const { return box.high[axis] - box.low[axis]; }
+  double extent(int axis) const { return box.upper[axis] - box.lower[axis]; }
   /// The image of x that lies in the box; x itself along axes that do not close.
   Vector2 wrapped(Vector2 x) const {
     for (int axis = 0; axis < 2; ++axis)
-      if (periodic[axis]) x[axis] -= std::floor((x[axis] - box.low[axis]) / extent(axis)) * extent(axis);
+      if (periodic[axis]) x[axis] -= std::floor((x[axis] - box.lower[axis]) / extent(axis)) * extent(axis);
     return x;
   }
 };

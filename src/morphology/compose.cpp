@@ -21,7 +21,7 @@ constexpr double smoothed_below = 35 * std::numbers::pi / 180;  ///< a cell with
 void refuse_too_many(double cells) {
   if (cells > most_cells)
     throw UserError(
-        format("-size asks for about %.1e cells, beyond the %.0e that a mesh file holds here; give a "
+        format("-size asks for about {:.1e} cells, beyond the {:.0e} that a mesh file holds here; give a "
                "larger one",
                cells, most_cells));
 }
@@ -43,8 +43,8 @@ bool good_enough(const MeshQuality& quality, double allowed) {
   const CompositeMesh::Cell worst = *std::ranges::min_element(mesh.cells, {}, angle);
   const Vector2& x = mesh.nodes[worst.corners[0]];
   throw UserError(format(
-      "the mesh has a cell at (%g, %g) m with an angle within %.2f degrees of 0 or 180, and "
-      "-worst_angle asks for %g; give a smaller -size_interface or -size, a larger -gap or "
+      "the mesh has a cell at ({:g}, {:g}) m with an angle within {:.2f} degrees of 0 or 180, and "
+      "-worst_angle asks for {:g}; give a smaller -size_interface or -size, a larger -gap or "
       "-repair, or a smaller -worst_angle",
       x[0], x[1], angle(worst) * 180 / std::numbers::pi, recipe.mesh.worst_angle * 180 / std::numbers::pi));
 }
@@ -75,12 +75,11 @@ void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   for (int axis = 0; axis < 2; ++axis)
     if (const int across = axis == 0 ? picture.columns : picture.rows;
         recipe.room.periodic[axis] && across < 3)
-      throw UserError(
-          format("-image_file '%s' has %d %s, and -periodic %s needs three at least; give a larger "
-                 "picture, or another -periodic",
-                 recipe.image.file.c_str(), across, axis == 0 ? "columns" : "rows",
-                 recipe.room.periodic[1] ? "xy" : "x"));
-  composed.block.high = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
+      throw UserError(format(
+          "-image_file '{}' has {} {}, and -periodic {} needs three at least; give a larger "
+          "picture, or another -periodic",
+          recipe.image.file, across, axis == 0 ? "columns" : "rows", recipe.room.periodic[1] ? "xy" : "x"));
+  composed.block.upper = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
   composed.grid = {picture.columns, picture.rows};
   const std::vector<int> region = regions_of(picture, recipe.image);
   for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)

@@ -9,8 +9,8 @@ namespace {
 
 /// A place on the rim of the block: counter-clockwise from the lower left corner, one side after the other.
 double place_on_rim(const Vertex& vertex, const Box& block) {
-  const double across = (vertex.x[0] - block.low[0]) / block.width(),
-               up = (vertex.x[1] - block.low[1]) / block.height();
+  const double across = (vertex.x[0] - block.lower[0]) / block.width(),
+               up = (vertex.x[1] - block.lower[1]) / block.height();
   if (vertex.sides & bottom && !(vertex.sides & left)) return across;
   if (vertex.sides & right) return 1 + up;
   if (vertex.sides & top) return 3 - across;
@@ -54,9 +54,9 @@ class Drafter {
 
   void add_block_corners() {
     for (const unsigned sides : {left | bottom, right | bottom, right | top, left | top})
-      corner_[sides] = add_rim_point(
-          {{sides & left ? block_.low[0] : block_.high[0], sides & bottom ? block_.low[1] : block_.high[1]},
-           sides});
+      corner_[sides] = add_rim_point({{sides & left ? block_.lower[0] : block_.upper[0],
+                                       sides & bottom ? block_.lower[1] : block_.upper[1]},
+                                      sides});
   }
 
   int point_of(const Vertex& vertex) {

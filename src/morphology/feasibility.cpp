@@ -26,15 +26,14 @@ void refuse_too_large(const std::vector<Family>& families, std::size_t k, const 
     const double extent = largest_extent(families[k], axis), room_for = available(room, axis);
     if (extent <= room_for) continue;
     const std::string option = option_of(families, k, "diameter");
-    const std::string where = format("%s of the block (%g m)", axis == 0 ? "the width" : "the height",
+    const std::string where = format("{} of the block ({:g} m)", axis == 0 ? "the width" : "the height",
                                      axis == 0 ? room.block.width() : room.block.height());
     if (room_for <= 0)
       throw UserError("-keep_out, -gap and -size leave no room for inclusions along " + where +
                       "; give smaller ones, or a larger block");
     throw UserError(
-        format("%s %g gives inclusions of %g m along ", option.c_str(), families[k].diameter, extent) +
-        where +
-        format(", where there is room for %g m; give at most %.3g", room_for,
+        format("{} {:g} gives inclusions of {:g} m along ", option, families[k].diameter, extent) + where +
+        format(", where there is room for {:g} m; give at most {:.3g}", room_for,
                std::floor(1e3 * room_for / extent) / 1e3 * families[k].diameter));
   }
 }
@@ -78,9 +77,9 @@ void refuse_impossible(const std::vector<Family>& families, const Room& room) {
     if (filled + families[k].fraction / largest > 1) {
       const double rest = std::floor(1e3 * largest * (1 - filled)) / 1e3;
       throw UserError(
-          format("%s %g is more than the densest packing with a gap of %g m allows; give less than "
-                 "%.3g, or a smaller -gap",
-                 option_of(families, k, "fraction").c_str(), families[k].fraction, room.gap, rest));
+          format("{} {:g} is more than the densest packing with a gap of {:g} m allows; give less than "
+                 "{:.3g}, or a smaller -gap",
+                 option_of(families, k, "fraction"), families[k].fraction, room.gap, rest));
     }
     filled += families[k].fraction / largest;
   }

@@ -81,7 +81,7 @@ void match_periodic_nodes(const Drawing& drawing, const Box& block, const std::a
       gmsh::model::mesh::getPeriodicNodes(1, segment, master, nodes, masters, affine);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         gmsh::model::mesh::getNode(masters[i], x, parameters);
-        x[axis] = block.high[axis];
+        x[axis] = block.upper[axis];
         gmsh::model::mesh::setNode(nodes[i], x, {});
       }
     }
@@ -126,8 +126,8 @@ double expected_triangles(const SizeField& field, const Box& block) {
   double sum = 0;
   for (int j = 0; j < samples; ++j)
     for (int i = 0; i < samples; ++i) {
-      const double length = field({block.low[0] + (i + 0.5) / samples * block.width(),
-                                   block.low[1] + (j + 0.5) / samples * block.height()});
+      const double length = field({block.lower[0] + (i + 0.5) / samples * block.width(),
+                                   block.lower[1] + (j + 0.5) / samples * block.height()});
       sum += 4 / std::sqrt(3) / (length * length);
     }
   return sum * block.width() * block.height() / (samples * samples);
@@ -176,8 +176,8 @@ void part_by_pixels(const Box& block, int columns, int rows, const std::vector<i
     for (int i = 0; i < 4; ++i)
       for (int axis = 0; axis < 2; ++axis)
         middle[axis] += 0.25 * nodes.x[nodes.number.at(corners[4 * cell + i])][axis];
-    const int column = static_cast<int>((middle[0] - block.low[0]) / block.width() * columns),
-              row = static_cast<int>((middle[1] - block.low[1]) / block.height() * rows);
+    const int column = static_cast<int>((middle[0] - block.lower[0]) / block.width() * columns),
+              row = static_cast<int>((middle[1] - block.lower[1]) / block.height() * rows);
     auto& part = parts[region[static_cast<std::size_t>(row) * columns + column]];
     part.insert(part.end(), corners.begin() + 4 * static_cast<std::ptrdiff_t>(cell),
                 corners.begin() + 4 * static_cast<std::ptrdiff_t>(cell) + 4);

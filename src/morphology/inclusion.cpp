@@ -39,7 +39,7 @@ double swept_by_outline(const Outline& outline, const Box& box) {
   std::array<std::vector<double>, 9> cuts;
   for (int k = 0; k < outline.count; ++k) cuts[k] = {outline.arcs[k].from, outline.arcs[k].to};
   for (int axis = 0; axis < 2; ++axis)
-    for (const double at : {box.low[axis], box.high[axis]})
+    for (const double at : {box.lower[axis], box.upper[axis]})
       for (const Hit& hit : hits(outline, axis, at)) cuts[hit.arc].push_back(hit.s);
   double sum = 0;
   for (int k = 0; k < outline.count; ++k) {
@@ -47,8 +47,8 @@ double swept_by_outline(const Outline& outline, const Box& box) {
     std::ranges::sort(cuts[k]);
     for (std::size_t i = 0; i + 1 < cuts[k].size(); ++i) {
       const Vector2 middle = arc.at(0.5 * (cuts[k][i] + cuts[k][i + 1]));
-      if (middle[0] > box.low[0] && middle[0] < box.high[0] && middle[1] > box.low[1] &&
-          middle[1] < box.high[1])
+      if (middle[0] > box.lower[0] && middle[0] < box.upper[0] && middle[1] > box.lower[1] &&
+          middle[1] < box.upper[1])
         sum += arc.swept(cuts[k][i], cuts[k][i + 1]);
     }
   }
@@ -58,14 +58,14 @@ double swept_by_outline(const Outline& outline, const Box& box) {
 /// Of the part of the box's side x[axis] = at that lies in the outline.
 double swept_by_side(const Outline& outline, const Box& box, int axis, double at) {
   const int along = 1 - axis;
-  double low = box.high[along], high = box.low[along];
+  double low = box.upper[along], high = box.lower[along];
   for (const Hit& hit : hits(outline, axis, at)) {
     const double x = outline.arcs[hit.arc].at(hit.s)[along];
     low = std::min(low, x);
     high = std::max(high, x);
   }
-  const double length = std::min(high, box.high[along]) - std::max(low, box.low[along]);
-  const double distance = at == box.high[axis] ? at : -at;
+  const double length = std::min(high, box.upper[along]) - std::max(low, box.lower[along]);
+  const double distance = at == box.upper[axis] ? at : -at;
   return length > 0 ? 0.5 * distance * length : 0;
 }
 
@@ -76,15 +76,15 @@ double area_inside(const Inclusion& inclusion, const Box& box) {
   bool whole = true;
   for (int axis = 0; axis < 2; ++axis) {
     const double low = inclusion.centre[axis] - reach[axis], high = inclusion.centre[axis] + reach[axis];
-    if (high <= box.low[axis] || low >= box.high[axis]) return 0;
-    whole = whole && low >= box.low[axis] && high <= box.high[axis];
+    if (high <= box.lower[axis] || low >= box.upper[axis]) return 0;
+    whole = whole && low >= box.lower[axis] && high <= box.upper[axis];
   }
   if (whole) return area(inclusion);
   const Outline outline(inclusion);
-  const Box about_centre{box.low - inclusion.centre, box.high - inclusion.centre};
+  const Box about_centre{box.lower - inclusion.centre, box.upper - inclusion.centre};
   double sum = swept_by_outline(outline, about_centre);
   for (int axis = 0; axis < 2; ++axis)
-    for (const double at : {about_centre.low[axis], about_centre.high[axis]})
+    for (const double at : {about_centre.lower[axis], about_centre.upper[axis]})
       sum += swept_by_side(outline, about_centre, axis, at);
   return std::clamp(sum, 0.0, area(inclusion));
 }

@@ -27,10 +27,10 @@ std::vector<Vertex> half(const std::vector<Vertex>& polygon, const Vector2& n, d
 }
 
 std::vector<Vertex> rectangle(const Box& block) {
-  return {{block.low, left | bottom},
-          {{block.high[0], block.low[1]}, right | bottom},
-          {block.high, right | top},
-          {{block.low[0], block.high[1]}, left | top}};
+  return {{block.lower, left | bottom},
+          {{block.upper[0], block.lower[1]}, right | bottom},
+          {block.upper, right | top},
+          {{block.lower[0], block.upper[1]}, left | top}};
 }
 
 /// Along a periodic axis the extent of the block must hold a whole number of periods.
@@ -41,10 +41,10 @@ void refuse_misfit(const Laminate& laminate, const Room& room, const Vector2& n)
     if (!room.periodic[axis] || std::abs(periods - std::round(periods)) < 1e-9 * std::max(1.0, periods))
       continue;
     throw UserError("the layers do not continue across the periodic sides: the block holds " +
-                    format("%.6g periods along %c; ", periods, axis == 0 ? 'x' : 'y') +
-                    (std::round(periods) >= 1
-                         ? format("give -layer_period %.15g", laminate.period * periods / std::round(periods))
-                         : std::string("give a smaller -layer_period")) +
+                    format("{:.6g} periods along {}; ", periods, axis == 0 ? 'x' : 'y') +
+                    (std::round(periods) >= 1 ? format("give -layer_period {:.15g}",
+                                                       laminate.period * periods / std::round(periods))
+                                              : std::string("give a smaller -layer_period")) +
                     ", or change -angle");
   }
 }
@@ -52,8 +52,8 @@ void refuse_misfit(const Laminate& laminate, const Room& room, const Vector2& n)
 /// How near interfaces come to a corner of the block, or to a side that they are parallel to.
 double nearness(const Laminate& laminate, const Box& block, const Vector2& n, double origin) {
   double nearest = laminate.period;
-  for (const double x : {block.low[0], block.high[0]})
-    for (const double y : {block.low[1], block.high[1]})
+  for (const double x : {block.lower[0], block.upper[0]})
+    for (const double y : {block.lower[1], block.upper[1]})
       for (const double face : {-0.5, 0.5}) {
         const double phase = (n[0] * x + n[1] * y - origin) / laminate.period - face * laminate.fraction;
         nearest = std::min(nearest, std::abs(phase - std::round(phase)) * laminate.period);
@@ -86,7 +86,8 @@ std::vector<Piece> layers(const Laminate& laminate, const Room& room, double cle
     if (std::abs(component - std::round(component)) < 1e-14) component = std::round(component);
   refuse_misfit(laminate, room, n);
   const Box& block = room.block;
-  const double middle = 0.5 * (n[0] * (block.low[0] + block.high[0]) + n[1] * (block.low[1] + block.high[1]));
+  const double middle =
+      0.5 * (n[0] * (block.lower[0] + block.upper[0]) + n[1] * (block.lower[1] + block.upper[1]));
   double origin = middle;  // centre line of a layer of inclusion
   if (nearness(laminate, block, n, origin) < clearance)
     for (int i = 1; i < 64; ++i)

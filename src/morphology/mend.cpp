@@ -86,8 +86,8 @@ std::optional<Inclusion> other_place(const std::vector<Inclusion>& inclusions, s
   const double shown = morphology::area_in_block(inclusions[k], room);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Inclusion moved = inclusions[k];
-    moved.centre = {room.block.low[0] + random.uniform() * room.block.width(),
-                    room.block.low[1] + random.uniform() * room.block.height()};
+    moved.centre = {room.block.lower[0] + random.uniform() * room.block.width(),
+                    room.block.lower[1] + random.uniform() * room.block.height()};
     if (!side_fault(moved, room).found && room_around(moved, k, inclusions, room) > room.gap &&
         std::abs(morphology::area_in_block(moved, room) - shown) < 0.5 * area(moved))
       return moved;

@@ -19,9 +19,9 @@ SizeField::SizeField(const MeshSize& size, const Box& block, const Drawing& draw
     for (int i = 0; i <= count; ++i) {
       const double part = static_cast<double>(i) / count;
       const Vector2 x{a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
-      const int column = std::clamp(static_cast<int>((x[0] - block.low[0]) / block.width() * columns_), 0,
+      const int column = std::clamp(static_cast<int>((x[0] - block.lower[0]) / block.width() * columns_), 0,
                                     columns_ - 1),
-                row = std::clamp(static_cast<int>((x[1] - block.low[1]) / block.height() * rows_), 0,
+                row = std::clamp(static_cast<int>((x[1] - block.lower[1]) / block.height() * rows_), 0,
                                  rows_ - 1);
       bins_[static_cast<std::size_t>(row) * columns_ + column].push_back(x);
     }
@@ -29,8 +29,8 @@ SizeField::SizeField(const MeshSize& size, const Box& block, const Drawing& draw
 }
 
 double SizeField::distance_to_interface(const Vector2& x) const {
-  const int column = static_cast<int>((x[0] - block_.low[0]) / block_.width() * columns_),
-            row = static_cast<int>((x[1] - block_.low[1]) / block_.height() * rows_);
+  const int column = static_cast<int>((x[0] - block_.lower[0]) / block_.width() * columns_),
+            row = static_cast<int>((x[1] - block_.lower[1]) / block_.height() * rows_);
   double nearest = reach_ * reach_;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r)
     for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
@@ -44,7 +44,7 @@ double SizeField::distance_to_interface(const Vector2& x) const {
 double SizeField::operator()(const Vector2& x) const {
   double size = size_.bulk;
   if (size_.surface < size_.bulk)
-    size = std::min(size, size_.surface + size_.growth * std::max(0.0, x[1] - block_.low[1]));
+    size = std::min(size, size_.surface + size_.growth * std::max(0.0, x[1] - block_.lower[1]));
   if (size_.interface < size_.bulk)
     size = std::min(size, size_.interface + size_.growth * distance_to_interface(x));
   return size;

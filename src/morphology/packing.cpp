@@ -17,9 +17,9 @@ Domain domain_around(const Room& room, const Vector2& reach) {
   for (int axis = 0; axis < 2; ++axis) {
     if (room.periodic[axis]) continue;
     const double margin = 2 * reach[axis] + room.gap + 2 * room.clearance;
-    domain.box.high[axis] += margin;
+    domain.box.upper[axis] += margin;
     if (axis == 1 && keeps_out(room)) continue;
-    domain.box.low[axis] -= margin;
+    domain.box.lower[axis] -= margin;
     domain.periodic[axis] = true;
   }
   return domain;
@@ -50,7 +50,7 @@ void Packing::remove(std::size_t k) {
 Vector2 Packing::any_place(Random& random, bool in_block) const {
   const Box& box = in_block ? room_.block : domain_.box;
   const double x = random.uniform(), y = random.uniform();
-  return {box.low[0] + x * box.width(), box.low[1] + y * box.height()};
+  return {box.lower[0] + x * box.width(), box.lower[1] + y * box.height()};
 }
 
 double Packing::smallest_separation(const Inclusion& inclusion, double enough, int except) const {

@@ -160,9 +160,9 @@ class Placer {
     for (const Inclusion& inclusion : packing_.inclusions())
       if (inclusion.family == static_cast<int>(k)) return;
     throw UserError(
-        format("%s %g is less than half an inclusion in the block; give at least %.2g, or a smaller %s",
-               option_of(families_, k, "fraction").c_str(), families_[k].fraction,
-               mean_area(k) / block_area(), option_of(families_, k, "diameter").c_str()));
+        format("{} {:g} is less than half an inclusion in the block; give at least {:.2g}, or a smaller {}",
+               option_of(families_, k, "fraction"), families_[k].fraction, mean_area(k) / block_area(),
+               option_of(families_, k, "diameter")));
   }
 
   Placement result() {
@@ -203,8 +203,8 @@ double feasible(std::vector<Family> families, const Room& room, std::uint64_t se
   const bool walls = room.edge == Edge::inside && !(room.periodic[0] && room.periodic[1]);
   const std::string other = walls ? "a smaller -gap, or -edge cut" : "or a smaller -gap";
   throw UserError(
-      format("%s %g cannot be reached with a gap of %g m: random placement comes to %.3g; give that, ",
-             option_of(families, jam.k, "fraction").c_str(), families[jam.k].fraction, room.gap, lower) +
+      format("{} {:g} cannot be reached with a gap of {:g} m: random placement comes to {:.3g}; give that, ",
+             option_of(families, jam.k, "fraction"), families[jam.k].fraction, room.gap, lower) +
       other);
 }
 

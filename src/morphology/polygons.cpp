@@ -22,14 +22,14 @@ struct CutInclusion {
   std::map<Tile, std::vector<Corner>> pieces;
 };
 
-double extent(const Box& block, int axis) { return block.high[axis] - block.low[axis]; }
+double extent(const Box& block, int axis) { return block.upper[axis] - block.lower[axis]; }
 
 /// The lines x[axis] = low + k extent that the inclusion reaches, as k.
 std::vector<int> lines(const Inclusion& inclusion, const Room& room, int axis) {
   const double length = extent(room.block, axis);
   const Vector2 n = axis == 0 ? Vector2{1, 0} : Vector2{0, 1};
-  const double from = inclusion.centre[axis] - support(inclusion, {-n[0], -n[1]}) - room.block.low[axis],
-               to = inclusion.centre[axis] + support(inclusion, n) - room.block.low[axis];
+  const double from = inclusion.centre[axis] - support(inclusion, {-n[0], -n[1]}) - room.block.lower[axis],
+               to = inclusion.centre[axis] + support(inclusion, n) - room.block.lower[axis];
   std::vector<int> found;
   for (int k = static_cast<int>(std::ceil(from / length)); k * length <= to; ++k)
     if (room.periodic[axis] || k == 0 || k == 1) found.push_back(k);
@@ -45,15 +45,15 @@ std::vector<Crossing> all_crossings(const Inclusion& inclusion, const Room& room
   std::vector<Crossing> found;
   for (int axis = 0; axis < 2; ++axis)
     for (int line : lines(inclusion, room, axis))
-      for (double t : crossings(inclusion, axis, room.block.low[axis] + line * extent(room.block, axis)))
+      for (double t : crossings(inclusion, axis, room.block.lower[axis] + line * extent(room.block, axis)))
         found.push_back({t, axis, line});
   std::ranges::sort(found, {}, &Crossing::t);
   return found;
 }
 
 Tile tile_of(const Vector2& x, const Box& block) {
-  return {static_cast<int>(std::floor((x[0] - block.low[0]) / extent(block, 0))),
-          static_cast<int>(std::floor((x[1] - block.low[1]) / extent(block, 1)))};
+  return {static_cast<int>(std::floor((x[0] - block.lower[0]) / extent(block, 0))),
+          static_cast<int>(std::floor((x[1] - block.lower[1]) / extent(block, 1)))};
 }
 
 bool in_body(const Tile& tile, const Room& room) {
@@ -66,7 +66,7 @@ Vertex in_block(Vector2 x, const Tile& tile, const Box& block, const Crossing* c
   for (int axis = 0; axis < 2; ++axis) x[axis] -= tile[axis] * extent(block, axis);
   if (crossing) {
     const bool low = crossing->line == tile[crossing->axis];
-    x[crossing->axis] = low ? block.low[crossing->axis] : block.high[crossing->axis];
+    x[crossing->axis] = low ? block.lower[crossing->axis] : block.upper[crossing->axis];
     vertex.sides = crossing->axis == 0 ? (low ? left : right) : (low ? bottom : top);
   }
   vertex.x = x;
@@ -133,8 +133,8 @@ void add_block_corners(CutInclusion& cut, const Inclusion& inclusion, const Room
   const Box& block = room.block;
   for (auto& [tile, piece] : cut.pieces)
     for (const unsigned sides : {left | bottom, right | bottom, right | top, left | top}) {
-      const Vector2 x{sides & left ? block.low[0] : block.high[0],
-                      sides & bottom ? block.low[1] : block.high[1]};
+      const Vector2 x{sides & left ? block.lower[0] : block.upper[0],
+                      sides & bottom ? block.lower[1] : block.upper[1]};
       if (inside(inclusion, {x[0] + tile[0] * extent(block, 0), x[1] + tile[1] * extent(block, 1)}))
         piece.push_back({{x, sides}});
     }

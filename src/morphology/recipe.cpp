@@ -131,13 +131,13 @@ void read_image(const Options& options, Recipe& recipe) {
   image = {options.text("image_file"), options.reals("image_levels"), {}, options.real("image_pixel")};
   for (std::size_t k = 1; k < image.levels.size(); ++k)
     if (image.levels[k] <= image.levels[k - 1])
-      throw UserError("-image_levels must ascend, but " + format("%g", image.levels[k]) + " follows " +
-                      format("%g", image.levels[k - 1]) + "; sort them");
+      throw UserError("-image_levels must ascend, but " + format("{:g}", image.levels[k]) + " follows " +
+                      format("{:g}", image.levels[k - 1]) + "; sort them");
   std::istringstream names(options.find_text("image_regions").value_or("matrix,inclusion"));
   for (std::string name; std::getline(names, name, ',');) image.regions.push_back(name);
   if (image.regions.size() != image.levels.size() + 1)
     throw UserError(
-        format("-image_regions names %zu regions, but %zu grey levels part %zu; give one name for each",
+        format("-image_regions names {} regions, but {} grey levels part {}; give one name for each",
                image.regions.size(), image.levels.size(), image.levels.size() + 1));
   std::set<std::string> taken;
   for (const std::string& name : image.regions)
@@ -180,7 +180,7 @@ Recipe read_recipe(Options& options) {
     read_image(options, recipe);
     return recipe;
   }
-  recipe.room.block.high = {options.real("block_width"), options.real("block_height")};
+  recipe.room.block.upper = {options.real("block_width"), options.real("block_height")};
   read_mesh_choice(options, recipe);
   if (recipe.composite == Composite::laminate) read_laminate(options, recipe);
   if (recipe.composite == Composite::random || recipe.composite == Composite::array)

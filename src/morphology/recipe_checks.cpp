@@ -35,12 +35,12 @@ std::string family_in(const std::string& word) {
 /// To three digits, and down, so that what a message recommends is accepted.
 std::string rounded_down(double x) {
   const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
-  return format("%.3g", std::floor(x / unit * (1 + 1e-12)) * unit);
+  return format("{:.3g}", std::floor(x / unit * (1 + 1e-12)) * unit);
 }
 
 void refuse_longer(double length, double most, const std::string& option, const std::string& fault) {
   if (length > most * (1 + 1e-9))
-    throw UserError("-" + option + format(" %g ", length) + fault + "; give at most " + rounded_down(most));
+    throw UserError("-" + option + format(" {:g} ", length) + fault + "; give at most " + rounded_down(most));
 }
 
 /// The short axis of the inclusions, or the thinner layers; infinite when there is nothing to resolve, m.
@@ -103,7 +103,7 @@ void refuse_coarse(const Options& options, const Recipe& recipe) {
   const MeshSize& size = recipe.mesh.size;
   for (int axis = 0; axis < 2; ++axis) {
     const double extent = axis == 0 ? recipe.room.block.width() : recipe.room.block.height();
-    const std::string side = format("%s of the block (%g m)", axis == 0 ? "width" : "height", extent);
+    const std::string side = format("{} of the block ({:g} m)", axis == 0 ? "width" : "height", extent);
     refuse_longer(size.bulk, extent, "size", "is more than the " + side);
     if (recipe.room.periodic[axis])
       refuse_longer(size.bulk, extent / 3, "size",
@@ -113,15 +113,16 @@ void refuse_coarse(const Options& options, const Recipe& recipe) {
     const double across = recipe.room.block.width() * std::abs(std::sin(recipe.laminate.angle)) +
                           recipe.room.block.height() * std::abs(std::cos(recipe.laminate.angle));
     refuse_longer(recipe.laminate.period, across, "layer_period",
-                  format("is more than the block across the layers (%g m)", across));
+                  format("is more than the block across the layers ({:g} m)", across));
   }
   const bool own = options.given("size_interface") && options.text("size_interface") != "auto";
   const std::string parts =
       recipe.composite == Composite::laminate ? "the thinner layers are thick" : "the inclusions are wide";
   refuse_longer(size.interface, thinnest(recipe), own ? "size_interface" : "size",
-                "is more than " + parts + format(" (%g m)", thinnest(recipe)));
-  refuse_longer(size.interface, size.bulk, "size_interface", format("is more than -size (%g m)", size.bulk));
-  refuse_longer(size.surface, size.bulk, "size_surface", format("is more than -size (%g m)", size.bulk));
+                "is more than " + parts + format(" ({:g} m)", thinnest(recipe)));
+  refuse_longer(size.interface, size.bulk, "size_interface",
+                format("is more than -size ({:g} m)", size.bulk));
+  refuse_longer(size.surface, size.bulk, "size_surface", format("is more than -size ({:g} m)", size.bulk));
 }
 
 }  // namespace slipscale::morphology

@@ -114,7 +114,7 @@ void Packing::move() {
     inclusion.centre = inclusion.centre + std::min(1.0, most / length) * push_[k];
     for (int axis = 0; axis < 2; ++axis) {
       double& x = inclusion.centre[axis];
-      if (!domain_.periodic[axis]) x = std::clamp(x, domain_.box.low[axis], domain_.box.high[axis]);
+      if (!domain_.periodic[axis]) x = std::clamp(x, domain_.box.lower[axis], domain_.box.upper[axis]);
       // Otherwise the last bits, which are not the same on every machine, would grow from sweep to sweep.
       x = std::nearbyint(x / quantum_) * quantum_;
     }

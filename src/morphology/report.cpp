@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "slipscale/base/print.hpp"
-#include "slipscale/record/yaml.hpp"
+#include "slipscale/files/yaml.hpp"
 #include "slipscale/version.hpp"
 
 namespace slipscale {
@@ -45,16 +45,15 @@ std::string region_table(const Recipe& recipe, const Composed& composed) {
     const double asked = family                                         ? recipe.families[k - 1].fraction
                          : recipe.composite == Composite::laminate && k ? recipe.laminate.fraction
                                                                         : 0;
-    rows.push_back(
-        {mesh.regions[k],
-         format("%ld",
-                static_cast<long>(std::ranges::count(mesh.cells, number, &CompositeMesh::Cell::region))),
-         format("%.6e", areas[k]),
-         format("%.5f", areas[k] / (composed.block.width() * composed.block.height())),
-         asked > 0 ? format("%.5f", asked) : "-",
-         family ? format("%ld", static_cast<long>(std::ranges::count(composed.placement.inclusions,
-                                                                     number - 1, &Inclusion::family)))
-                : "-"});
+    rows.push_back({mesh.regions[k],
+                    format("{}", static_cast<long>(
+                                     std::ranges::count(mesh.cells, number, &CompositeMesh::Cell::region))),
+                    format("{:.6e}", areas[k]),
+                    format("{:.5f}", areas[k] / (composed.block.width() * composed.block.height())),
+                    asked > 0 ? format("{:.5f}", asked) : "-",
+                    family ? format("{}", static_cast<long>(std::ranges::count(
+                                              composed.placement.inclusions, number - 1, &Inclusion::family)))
+                           : "-"});
   }
   return table(rows);
 }
@@ -65,10 +64,10 @@ std::string placement_line(const Composed& composed) {
       "smallest gap " + (std::isfinite(placement.smallest_gap) ? engineering(placement.smallest_gap, "m")
                                                                : std::string("none"));
   if (placement.relaxed)
-    text += format("; %d inclusions found room only after others had moved", placement.relaxed);
+    text += format("; {} inclusions found room only after others had moved", placement.relaxed);
   const int moved = placement.moved + composed.moved, dropped = placement.dropped + composed.dropped;
   if (moved + composed.redrawn + dropped)
-    text += format("; repaired: %d moved, %d drawn anew, %d dropped", moved, composed.redrawn, dropped);
+    text += format("; repaired: {} moved, {} drawn anew, {} dropped", moved, composed.redrawn, dropped);
   return text + "\n";
 }
 
@@ -76,7 +75,7 @@ std::string histogram(const MeshQuality& quality) {
   std::string text = "cells by smallest angle:";
   for (std::size_t bin = 0; bin < quality.histogram.size(); ++bin)
     if (quality.histogram[bin])
-      text += format("  %zu-%zu: %ld", 10 * bin, 10 * bin + 10, quality.histogram[bin]);
+      text += format("  {}-{}: {}", 10 * bin, 10 * bin + 10, quality.histogram[bin]);
   return text + " (degrees)\n";
 }
 
@@ -87,22 +86,22 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
   const MeshQuality& quality = composed.quality;
   std::string text = "block " + engineering(composed.block.width(), "m") + " x " +
                      engineering(composed.block.height(), "m") +
-                     format(", %zu nodes, %ld triangles, %ld quadrilaterals\n", mesh.nodes.size(),
+                     format(", {} nodes, {} triangles, {} quadrilaterals\n", mesh.nodes.size(),
                             triangles(mesh), static_cast<long>(mesh.cells.size()) - triangles(mesh));
   if (composed.grid[0] > 0)
-    text += format("%d columns and %d rows of cells, ", composed.grid[0], composed.grid[1]) +
+    text += format("{} columns and {} rows of cells, ", composed.grid[0], composed.grid[1]) +
             engineering(composed.block.width() / composed.grid[0], "m") + " x " +
             engineering(composed.block.height() / composed.grid[1], "m") + "\n";
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
   if (!composed.drawn_area.empty())
-    text += format("meshed against drawn area of an inclusion: at most %.1e apart\n", area_error(composed));
+    text += format("meshed against drawn area of an inclusion: at most {:.1e} apart\n", area_error(composed));
   text += histogram(quality);
-  text += format("angles %.2f to %.2f degrees\n", quality.smallest_angle / degree,
+  text += format("angles {:.2f} to {:.2f} degrees\n", quality.smallest_angle / degree,
                  quality.largest_angle / degree);
-  text += format("the step is set by cell %d at ", quality.step_cell) + place(mesh, quality.step_cell) +
+  text += format("the step is set by cell {} at ", quality.step_cell) + place(mesh, quality.step_cell) +
           ": dilatational speed times stable step " + engineering(quality.step_length, "m") +
-          format(", %.2f of the median cell's (Poisson's ratio .3)\n",
+          format(", {:.2f} of the median cell's (Poisson's ratio .3)\n",
                  quality.step_length / quality.typical_step_length);
   return text;
 }

@@ -21,7 +21,7 @@ struct Barred {
 
 std::vector<Barred> barred(const Inclusion& inclusion, const Room& room, int axis, bool outside_allowed) {
   const double reach = support(inclusion, axis == 0 ? Vector2{1, 0} : Vector2{0, 1});
-  const double low = room.block.low[axis], high = room.block.high[axis];
+  const double low = room.block.lower[axis], high = room.block.upper[axis];
   const double near = room.clearance, wall = wall_distance(room);
   std::vector<Barred> found;
   const auto add_cut = [&](double side) {
@@ -62,8 +62,8 @@ double nearest_allowed(double x, const std::vector<Barred>& intervals, double sl
 /// that covers the corner is moved further over it unless `out`.
 Vector2 corner_move(const Inclusion& inclusion, const Room& room, bool out, double slack) {
   Inclusion point;
-  for (const double x : {room.block.low[0], room.block.high[0]})
-    for (const double y : {room.block.low[1], room.block.high[1]}) {
+  for (const double x : {room.block.lower[0], room.block.upper[0]})
+    for (const double y : {room.block.lower[1], room.block.upper[1]}) {
       point.centre = {x, y};
       Vector2 away{};
       const double s = separation_within(room.clearance, point, inclusion, &away);
@@ -79,7 +79,7 @@ Vector2 move_into_block(const Inclusion& inclusion, const Room& room, double sla
   Vector2 way{};
   const double s = separation_within(0, inclusion, as_inclusion(room.block), &way);
   if (s < 0) return {};
-  const Vector2 middle = 0.5 * (room.block.low + room.block.high);
+  const Vector2 middle = 0.5 * (room.block.lower + room.block.upper);
   return (std::max(s, 0.0) + room.clearance + slack) * unit(middle - inclusion.centre);
 }
 
@@ -142,7 +142,8 @@ Fault fault(const Inclusion& inclusion, const Room& room, bool outside_allowed) 
 bool may_reach(const Inclusion& inclusion, const Box& box) {
   for (int axis = 0; axis < 2; ++axis) {
     const double reach = support(inclusion, axis == 0 ? Vector2{1, 0} : Vector2{0, 1});
-    if (inclusion.centre[axis] + reach <= box.low[axis] || inclusion.centre[axis] - reach >= box.high[axis])
+    if (inclusion.centre[axis] + reach <= box.lower[axis] ||
+        inclusion.centre[axis] - reach >= box.upper[axis])
       return false;
   }
   return true;
@@ -152,7 +153,7 @@ bool may_reach(const Inclusion& inclusion, const Box& box) {
 
 Inclusion as_inclusion(const Box& box) {
   const double a = 0.5 * box.width(), b = 0.5 * box.height();
-  return {Shape::rectangle, 0.5 * (box.low + box.high), a, b, 0, 0, 0};
+  return {Shape::rectangle, 0.5 * (box.lower + box.upper), a, b, 0, 0, 0};
 }
 
 Fault side_fault_or_outside(const Inclusion& inclusion, const Room& room) {

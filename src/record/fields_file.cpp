@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "slipscale/base/error.hpp"
-#include "slipscale/record/estimate.hpp"
-#include "xdmf.hpp"
+#include "slipscale/files/xdmf.hpp"
 
 namespace slipscale {
 namespace {
@@ -99,5 +98,15 @@ void FieldsFile::write_on_cells(const DatasetDescription& about, const double* v
 }
 
 void FieldsFile::close() { file_->finish(); }
+
+double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
+                    const FieldQuantities& quantities) {
+  const double vector = 3 * sizeof(double);
+  const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
+                       (quantities.stress + quantities.strain) * vector * static_cast<double>(cells) +
+                       group_overhead;
+  return frames * frame + mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) +
+         group_overhead;
+}
 
 }  // namespace slipscale

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "slipscale/base/print.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/element.hpp"
 #include "slipscale/solid/mass.hpp"
 
@@ -40,10 +41,10 @@ Probes::Probes(MPI_Comm comm, const Model& model, const std::vector<Vector2>& po
   const Mesh& mesh = model.mesh;
   for (int p = 0; p < static_cast<int>(points.size()); ++p)
     if (!place_on_node(comm, mesh, p) && !place_in_cell(comm, mesh, p))
-      throw UserError(
-          format("-history_points: (%g, %g) m lies outside the body, which spans x %g to %g m and y %g to "
-                 "%g m; move the point",
-                 points[p][0], points[p][1], mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1]));
+      throw UserError(format(
+          "-history_points: ({:g}, {:g}) m lies outside the body, which spans x {:g} to {:g} m and y {:g} to "
+          "{:g} m; move the point",
+          points[p][0], points[p][1], mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1]));
   for (std::size_t c = 0; c < corners_.size(); ++c)
     for (int i = 0; i < mesh.nodes.owned; ++i)
       if (mesh.nodes.number[i] == corners_[c].number) {

@@ -18,7 +18,7 @@ std::optional<long> steps_or_auto(const Options& options, const std::string& nam
   if (text == "auto") return std::nullopt;
   const double steps = std::strtod(text.c_str(), nullptr);
   if (steps != std::floor(steps) || steps > 1e15)
-    throw UserError(format("-%s is %g, but it must be auto or a whole number of steps", name.c_str(), steps));
+    throw UserError(format("-{} is {:g}, but it must be auto or a whole number of steps", name, steps));
   return static_cast<long>(steps);
 }
 
@@ -31,16 +31,15 @@ std::vector<Vector2> read_points(const Options& options) {
   return points;
 }
 
-std::optional<BoundingBox> read_box(const Options& options) {
+std::optional<Box> read_box(const Options& options) {
   const auto numbers = options.reals("fields_box");
   if (numbers.empty()) return std::nullopt;
   if (numbers.size() != 4)
-    throw UserError(
-        format("-fields_box has %zu numbers; give two corners, x1,y1,x2,y2 in m", numbers.size()));
-  const BoundingBox box{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+    throw UserError(format("-fields_box has {} numbers; give two corners, x1,y1,x2,y2 in m", numbers.size()));
+  const Box box{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
   for (int d = 0; d < 2; ++d)
     if (!(box.lower[d] < box.upper[d]))
-      throw UserError(format("-fields_box goes from %c = %g to %g m; give the lower left corner first",
+      throw UserError(format("-fields_box goes from {} = {:g} to {:g} m; give the lower left corner first",
                              "xy"[d], box.lower[d], box.upper[d]));
   return box;
 }

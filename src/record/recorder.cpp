@@ -27,7 +27,7 @@ std::vector<long> steps_of(const std::vector<double>& times, const TimeStep& tim
     const double n = std::round(t / time.step);
     if (!(n >= 0 && n <= static_cast<double>(time.count)))
       throw UserError(
-          format("-fields_times: %g s lies outside the run, which goes from 0 to %g s; move the frame", t,
+          format("-fields_times: {:g} s lies outside the run, which goes from 0 to {:g} s; move the frame", t,
                  static_cast<double>(time.count) * time.step));
     steps.push_back(static_cast<long>(n));
   }
@@ -49,7 +49,8 @@ const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice)
   MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, body.comm());
   if (!found)
     throw UserError(
-        format("-fields_box holds the centre of no cell of the body, which spans x %g to %g m and y %g to %g "
+        format("-fields_box holds the centre of no cell of the body, which spans x {:g} to {:g} m and y {:g} "
+               "to {:g} "
                "m; move or widen it",
                mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1]));
   return choice;
@@ -147,15 +148,15 @@ void Recorder::check(const Observation& seen) const {
   const Energy& e = seen.energy;
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
   if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
-  stop(format("step %ld (t = %g s): ", seen.step, seen.time) +
-       (finite ? format("the energy balance misses %g J/m of %g J/m that flowed", e.residual, e.flowed)
+  stop(format("step {} (t = {:g} s): ", seen.step, seen.time) +
+       (finite ? format("the energy balance misses {:g} J/m of {:g} J/m that flowed", e.residual, e.flowed)
                : std::string("the state is no longer finite")));
 }
 
 void Recorder::stop(const std::string& fault) const {
   std::string kept = "the rows before it are kept in '" + folder_.path() + "'";
   if (statistics_ && statistics_->samples() > 0) {
-    kept += format(", and the statistics of %zu samples", statistics_->samples());
+    kept += format(", and the statistics of {} samples", statistics_->samples());
     try {
       statistics_->write(folder_.path());
     } catch (const UserError& error) {

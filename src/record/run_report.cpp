@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "slipscale/base/print.hpp"
-#include "slipscale/record/estimate.hpp"
+#include "slipscale/base/readable.hpp"
+#include "slipscale/files/yaml.hpp"
 #include "slipscale/record/recorder.hpp"
-#include "slipscale/record/yaml.hpp"
 #include "slipscale/version.hpp"
 #include "summary.hpp"
 
@@ -43,7 +43,7 @@ double memory_of_all_ranks(MPI_Comm comm) {
 }
 
 std::string hexadecimal(std::uint64_t value) {
-  return format("%016llx", static_cast<unsigned long long>(value));
+  return format("{:016x}", static_cast<unsigned long long>(value));
 }
 
 }  // namespace
@@ -58,10 +58,9 @@ std::string Recorder::forecast() const {
   if (fields_) bytes += fields_->bytes(frames);
   if (statistics_) bytes += statistics_->bytes();
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
-  return format("%ld steps to %s, about %s, memory %s, output %s in '%s'\n", last_,
-                engineering(static_cast<double>(last_) * time_.step, "s").c_str(),
-                readable_duration(seconds).c_str(), readable_bytes(memory_of_all_ranks(body_.comm())).c_str(),
-                readable_bytes(bytes).c_str(), folder_.path().c_str()) +
+  return format("{} steps to {}, about {}, memory {}, output {} in '{}'\n", last_,
+                engineering(static_cast<double>(last_) * time_.step, "s"), readable_duration(seconds),
+                readable_bytes(memory_of_all_ranks(body_.comm())), readable_bytes(bytes), folder_.path()) +
          (statistics_ ? statistics_->forecast(time_.step) : "");
 }
 

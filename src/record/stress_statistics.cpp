@@ -5,8 +5,8 @@
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
-#include "slipscale/record/estimate.hpp"
-#include "slipscale/record/statistics_file.hpp"
+#include "slipscale/base/readable.hpp"
+#include "slipscale/files/statistics_file.hpp"
 
 namespace slipscale {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 long step_at(const std::string& option, double t, const TimeStep& time) {
   const double n = std::round(t / time.step);
   if (!(n >= 0 && n <= static_cast<double>(time.count)))
-    throw UserError(format("-%s: %g s lies outside the run, which goes from 0 to %g s; move the window",
-                           option.c_str(), t, static_cast<double>(time.count) * time.step));
+    throw UserError(format("-{}: {:g} s lies outside the run, which goes from 0 to {:g} s; move the window",
+                           option, t, static_cast<double>(time.count) * time.step));
   return static_cast<long>(n);
 }
 
@@ -39,12 +39,13 @@ StatisticsWindow statistics_window(const StatisticsChoice& choice, const TimeSte
   window.first = step_at("statistics_from", choice.from, time);
   window.last = choice.to ? step_at("statistics_to", *choice.to, time) : time.count;
   if (window.first > window.last)
-    throw UserError(format("-statistics_to: %g s lies before -statistics_from %g s; turn the window round",
-                           choice.to.value_or(0), choice.from));
+    throw UserError(
+        format("-statistics_to: {:g} s lies before -statistics_from {:g} s; turn the window round",
+               choice.to.value_or(0), choice.from));
   window.every = choice.every ? *choice.every : std::max(1L, (window.last - window.first) / samples);
   if (window.samples() == 0)
     throw UserError(
-        format("-statistics_every %ld: no multiple of it lies among the steps %ld to %ld of the window; give "
+        format("-statistics_every {}: no multiple of it lies among the steps {} to {} of the window; give "
                "a smaller one",
                window.every, window.first, window.last));
   return window;
@@ -83,9 +84,9 @@ std::string StressStatistics::forecast(double time_step) const {
   const long every = window_.every, first = (window_.first + every - 1) / every * every;
   const auto time = [&](long n) { return engineering(static_cast<double>(n) * time_step, "s"); };
   const double memory = 2 * RunningStatistics::bytes(window_.samples(), quantile_);
-  return format("statistics of %zu samples from %s to %s take %s of that memory\n", window_.samples(),
-                time(first).c_str(), time(window_.last / every * every).c_str(),
-                readable_bytes(memory * static_cast<double>(mesh_.cells.total)).c_str());
+  return format("statistics of {} samples from {} to {} take {} of that memory\n", window_.samples(),
+                time(first), time(window_.last / every * every),
+                readable_bytes(memory * static_cast<double>(mesh_.cells.total)));
 }
 
 double StressStatistics::bytes() const { return statistics_bytes(mesh_.nodes.total, mesh_.cells.total); }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/files/yaml.hpp"
 #include "slipscale/record/spectrum.hpp"
-#include "slipscale/record/yaml.hpp"
 #include "slipscale/version.hpp"
 
 namespace slipscale {

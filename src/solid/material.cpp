@@ -23,7 +23,7 @@ Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
 }
 
 std::string six_numbers(const Eigen::Matrix3d& c) {
-  return format("C11 %.4g, C22 %.4g, C12 %.4g, C66 %.4g, C16 %.3g, C26 %.3g GPa", c(0, 0) * 1e-9,
+  return format("C11 {:.4g}, C22 {:.4g}, C12 {:.4g}, C66 {:.4g}, C16 {:.3g}, C26 {:.3g} GPa", c(0, 0) * 1e-9,
                 c(1, 1) * 1e-9, c(0, 1) * 1e-9, c(2, 2) * 1e-9, c(0, 2) * 1e-9, c(1, 2) * 1e-9);
 }
 
@@ -32,8 +32,7 @@ Material from_file(const std::string& option, const std::string& path) {
   Material material;
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
-  material.description =
-      six_numbers(material.stiffness) + format(", %.4g kg/m3 (%s)", file.density, path.c_str());
+  material.description = six_numbers(material.stiffness) + format(", {:.4g} kg/m3 ({})", file.density, path);
   return material;
 }
 
@@ -50,10 +49,10 @@ Material read_one(const Options& options, const std::string& prefix) {
   } else {
     const double young = options.real(prefix + "young"), poisson = options.real(prefix + "poisson");
     material.stiffness = isotropic_stiffness(young, poisson);
-    material.description = format("E %.4g GPa, nu %.4g", young * 1e-9, poisson);
+    material.description = format("E {:.4g} GPa, nu {:.4g}", young * 1e-9, poisson);
   }
   material.density = options.real(prefix + "density");
-  material.description += format(", %.4g kg/m3", material.density);
+  material.description += format(", {:.4g} kg/m3", material.density);
   return material;
 }
 

@@ -23,9 +23,9 @@ int main(int argc, char** argv) {
   };
   const auto body = [](Options& options) {
     options.know_names("region", {"matrix", "Fibre"});
-    print(format("coefficient %g\n", options.real("friction_coefficient")));
-    print(format("every %d\n", static_cast<int>(options.integer("history_every"))));
-    if (const auto young = options.find_real("material_Fibre_young")) print(format("young %g\n", *young));
+    print(format("coefficient {:g}\n", options.real("friction_coefficient")));
+    print(format("every {}\n", static_cast<int>(options.integer("history_every"))));
+    if (const auto young = options.find_real("material_Fibre_young")) print(format("young {:g}\n", *young));
     const std::string fail = options.text("fail");
     options.refuse_unknown();
     if (fail == "user") throw UserError("the mesh has a hole; mend it");

@@ -96,9 +96,9 @@ TEST(EnergyLedger, Closes) {
           scene.damping = damping;
           scene.friction = law.friction;
           const Course c = course(model, scene);
-          const std::string name = law.name +
-                                   format(", beta2 %g, a %g, b %g", beta2, damping.mass, damping.stiffness) +
-                                   (lands ? ", landing" : ", scene R");
+          const std::string name =
+              law.name + format(", beta2 {:g}, a {:g}, b {:g}", beta2, damping.mass, damping.stiffness) +
+              (lands ? ", landing" : ", scene R");
           EXPECT_LE(c.worst_residual, 1e-10) << name;
           EXPECT_LE(c.worst_fall_of_heat, 1e-12) << name;
           EXPECT_GE(c.least_damping, 0) << name;

@@ -44,7 +44,7 @@ TEST(Array, RepairsOrDropsInclusions) {
   const Placement repaired = place_in_array(family, room, {Arrangement::square, 6, 4, 2.5e-4});
   EXPECT_EQ(repaired.moved, 6);
   EXPECT_EQ(repaired.dropped, 0);
-  EXPECT_NEAR(repaired.inclusions[0].centre[1], room.block.low[1] + 8.4e-4, 1e-9);
+  EXPECT_NEAR(repaired.inclusions[0].centre[1], room.block.lower[1] + 8.4e-4, 1e-9);
   expect_sound(repaired, room);
   const Placement thinned = place_in_array(family, room, {Arrangement::square, 6, 4, 2.3e-4});
   EXPECT_EQ(thinned.dropped, 6);

@@ -39,7 +39,7 @@ Family family(Shape shape, double fraction, double diameter) {
 
 Recipe empty_recipe(std::uint64_t seed) {
   Recipe recipe;
-  recipe.room.block.high = {length, length};
+  recipe.room.block.upper = {length, length};
   recipe.mesh.size = {size, size, size, 0};
   recipe.mesh.worst_angle = 15 * degree;
   recipe.mesh.cell = seed % 3 == 2 ? CellShape::quadrilateral : CellShape::triangle;
@@ -136,7 +136,7 @@ void check_pairs(const MshFile& file, const Room& room) {
   }
   for (int axis = 0; axis < 2; ++axis) {
     std::size_t on_side = 0;
-    for (const auto& [number, x] : file.nodes) on_side += x[axis] == room.block.high[axis];
+    for (const auto& [number, x] : file.nodes) on_side += x[axis] == room.block.upper[axis];
     if (room.periodic[axis]) {
       EXPECT_GE(along[axis], on_side) << "axis " << axis;
     }

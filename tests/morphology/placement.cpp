@@ -133,7 +133,7 @@ TEST(Placement, MendsInclusionsAtSides) {
         if (shape != Shape::disc) inclusion.angle = 2 * pi * part(engine);
         for (const int axis : {0, 1})
           inclusion.centre[axis] =
-              room.block.low[axis] + part(engine) * (room.block.high[axis] - room.block.low[axis]);
+              room.block.lower[axis] + part(engine) * (room.block.upper[axis] - room.block.lower[axis]);
         const Fault fault = side_fault(inclusion, room);
         found += fault.found;
         EXPECT_LE(std::hypot(fault.way[0], fault.way[1]), 3 * room.clearance);
@@ -147,12 +147,12 @@ TEST(Placement, MendsInclusionsAtSides) {
 /// A disc over a corner of a block that is periodic in both has images in the three other corners.
 TEST(Placement, ImagesReachIntoTheBlock) {
   const Room room = room_with(Sides::periodic, 6);
-  Inclusion disc{Shape::disc, room.block.low, 0.5e-3, 0.5e-3, 0, 0, 0};
+  Inclusion disc{Shape::disc, room.block.lower, 0.5e-3, 0.5e-3, 0, 0, 0};
   EXPECT_EQ(images(disc, room).size(), 4u);
   // Beyond the corner of the block, though not beyond either side.
-  disc.centre = {room.block.low[0] + 0.4e-3, room.block.low[1] + 0.4e-3};
+  disc.centre = {room.block.lower[0] + 0.4e-3, room.block.lower[1] + 0.4e-3};
   EXPECT_EQ(images(disc, room).size(), 3u);
-  disc.centre = {room.block.low[0] + 0.4e-3, room.block.low[1] + 1e-3};
+  disc.centre = {room.block.lower[0] + 0.4e-3, room.block.lower[1] + 1e-3};
   EXPECT_EQ(images(disc, room).size(), 2u);
   EXPECT_EQ(images(disc, room_with(Sides::cut, 6)).size(), 1u);
 }

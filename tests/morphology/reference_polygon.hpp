@@ -85,8 +85,8 @@ inline Polygon clipped(const Polygon& polygon, int axis, double at, double sign)
 
 inline double polygon_area_in(const Box& box, Polygon polygon) {
   for (int axis = 0; axis < 2; ++axis) {
-    polygon = clipped(polygon, axis, box.low[axis], 1);
-    polygon = clipped(polygon, axis, box.high[axis], -1);
+    polygon = clipped(polygon, axis, box.lower[axis], 1);
+    polygon = clipped(polygon, axis, box.upper[axis], -1);
   }
   double twice = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {

@@ -107,19 +107,19 @@ inline void expect_clear(const Polygon& polygon, const Room& room) {
     const Extent found = extent(polygon, axis);
     const bool inside = !room.periodic[axis] && room.edge == Edge::inside;
     const bool layer = axis == 1 && room.keep_out > 0;
-    for (const double side : {block.low[axis], block.high[axis]}) {
+    for (const double side : {block.lower[axis], block.upper[axis]}) {
       EXPECT_GE(std::abs(found.low - side), clear);
       EXPECT_GE(std::abs(found.high - side), clear);
     }
     if (layer || inside) {
-      EXPECT_GE(found.low, block.low[axis] + (layer ? room.keep_out : 0) + wall);
+      EXPECT_GE(found.low, block.lower[axis] + (layer ? room.keep_out : 0) + wall);
     }
     if (inside) {
-      EXPECT_LE(found.high, block.high[axis] - wall);
+      EXPECT_LE(found.high, block.upper[axis] - wall);
     }
   }
-  for (const double x : {block.low[0], block.high[0]})
-    for (const double y : {block.low[1], block.high[1]}) EXPECT_GE(to_outline({x, y}, polygon), clear);
+  for (const double x : {block.lower[0], block.upper[0]})
+    for (const double y : {block.lower[1], block.upper[1]}) EXPECT_GE(to_outline({x, y}, polygon), clear);
 }
 
 /// What holds of every placement, without the help of the code that made it.
@@ -137,11 +137,11 @@ inline void expect_sound(const Placement& placement, const Room& room) {
     expect_clear(image.polygon, room);
     for (const int axis : {0, 1}) {
       const Extent found = extent(image.polygon, axis);
-      EXPECT_LT(found.low, room.block.high[axis]);
-      EXPECT_GT(found.high, room.block.low[axis]);
+      EXPECT_LT(found.low, room.block.upper[axis]);
+      EXPECT_GT(found.high, room.block.lower[axis]);
       if (!room.periodic[axis]) continue;
-      EXPECT_GE(image.centre[axis], room.block.low[axis]);
-      EXPECT_LT(image.centre[axis], room.block.high[axis]);
+      EXPECT_GE(image.centre[axis], room.block.lower[axis]);
+      EXPECT_LT(image.centre[axis], room.block.upper[axis]);
     }
   }
 }

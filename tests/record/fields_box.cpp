@@ -4,9 +4,9 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/fields_file.hpp"
-#include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
 using testing_support::scratch;
@@ -16,7 +16,7 @@ namespace {
 using Everything = std::map<std::string, read_back::Dataset>;
 
 // Some of the 9 x 5 cells of the cases' blocks of 1 x 0.5 m, and on a torus both sides of its seam.
-const BoundingBox part{{0.45, 0.08}, {1.2, 0.42}}, all_of_it{{-1, -1}, {2, 2}};
+const Box part{{0.45, 0.08}, {1.2, 0.42}}, all_of_it{{-1, -1}, {2, 2}};
 const FieldQuantities quantities{.u = true, .v = true, .stress = true, .strain = true};
 
 int rank_in(MPI_Comm comm) {
@@ -25,7 +25,7 @@ int rank_in(MPI_Comm comm) {
   return rank;
 }
 
-Everything written(MPI_Comm comm, const std::string& mesh_file, const std::optional<BoundingBox>& box) {
+Everything written(MPI_Comm comm, const std::string& mesh_file, const std::optional<Box>& box) {
   MeshSource source;
   source.file = mesh_file;
   const Mesh mesh = read_mesh(comm, source);
@@ -131,8 +131,7 @@ TEST(FieldsBox, KnowsTheCellsThatItHolds) {
   std::set<std::size_t> kinds;
   for (int k = 0; k < 9; ++k) {
     const double x = (k + 0.5) / 9;
-    const Everything column =
-        written(PETSC_COMM_WORLD, path, BoundingBox{{x - 0.5 / 9, 0.1}, {x + 0.5 / 9, 0.2}});
+    const Everything column = written(PETSC_COMM_WORLD, path, Box{{x - 0.5 / 9, 0.1}, {x + 0.5 / 9, 0.2}});
     if (rank_in(PETSC_COMM_WORLD) == 0) kinds.insert(column.at("mesh/cells").shape.size());
   }
   if (rank_in(PETSC_COMM_WORLD) == 0) {

@@ -8,8 +8,8 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
-#include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
 using testing_support::scratch;

@@ -1,9 +1,9 @@
 #include <filesystem>
 
 #include "analytic_fields.hpp"
+#include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/fields_file.hpp"
-#include "slipscale/record/output_folder.hpp"
 
 using namespace slipscale;
 

@@ -107,12 +107,12 @@ TEST(Bars, ImpactHasThePressureAndDurationOfTheWave) {
   EXPECT_NEAR(rebound, 0, 5e-4);
   EXPECT_NEAR(impulse, 0, 1.0 / 200);
   const std::string topic = "Bar impact, 200 elements, worst of 4 phases";
-  report({topic, "relative error of the pressure rho c_d v0", "<= 1e-3", format("%.1e", pressure), "",
+  report({topic, "relative error of the pressure rho c_d v0", "<= 1e-3", format("{:.1e}", pressure), "",
           "wave solution"});
-  report({topic, "contact time over 2L/c_d", "1 +- 0.01", format("%.4f", 1 + length), "", "wave solution"});
-  report({topic, "rebound over v0", "0.9947 +- 5e-4 (exact 1)", format("%.4f", 0.9947 + rebound), "",
+  report({topic, "contact time over 2L/c_d", "1 +- 0.01", format("{:.4f}", 1 + length), "", "wave solution"});
+  report({topic, "rebound over v0", "0.9947 +- 5e-4 (exact 1)", format("{:.4f}", 0.9947 + rebound), "",
           "separate serial prototype"});
-  report({topic, "impulse over 2 rho L v0", "1 +- h/L", format("%.4f", 1 + impulse), "", "wave solution"});
+  report({topic, "impulse over 2 rho L v0", "1 +- h/L", format("{:.4f}", 1 + impulse), "", "wave solution"});
 }
 
 /// The energy lost is that of the surface node, O(h), whatever the phase of the first contact in its step
@@ -139,13 +139,13 @@ TEST(Bars, LossesOfTheImpactVanishWithTheMesh) {
     if (k > 1) {
       EXPECT_NEAR(rebound_order, 2.0 / 3, 0.1);
     }
-    energy_orders += format(" %.2f", energy_order);
-    rebound_orders += format(" %.2f", rebound_order);
+    energy_orders += format(" {:.2f}", energy_order);
+    rebound_orders += format(" {:.2f}", rebound_order);
   }
   const std::string topic = "Bar impact, 50/100/200/400 elements, mean of 3 phases";
   report({topic, "energy lost at the surface over rho L v0^2/2, at 400", "O(h), <= h/L = 0.0025",
-          format("%.6f", energy[3]), energy_orders.substr(1), "kinetic energy of the surface nodes"});
-  report({topic, "rebound lost over v0, at 400", "O(h^2/3)", format("%.5f", rebound[3]),
+          format("{:.6f}", energy[3]), energy_orders.substr(1), "kinetic energy of the surface nodes"});
+  report({topic, "rebound lost over v0, at 400", "O(h^2/3)", format("{:.5f}", rebound[3]),
           rebound_orders.substr(1), "dispersion of the fronts"});
 }
 
@@ -160,7 +160,7 @@ TEST(Bars, BounceAfterDoyenErnAndPiperno) {
     if (k == 0) continue;
     const double order = std::log2(loss[k - 1] / loss[k]);
     EXPECT_NEAR(order, 1, 0.05);
-    orders += format(k == 1 ? "%.2f" : " %.2f", order);
+    orders += (k == 1 ? "" : " ") + format("{:.2f}", order);
   }
   EXPECT_LE(loss[3], 1.0 / 400);
   const Impact found = impact({10, 900, 0, 10, 0, 5, 0, 2});
@@ -172,14 +172,14 @@ TEST(Bars, BounceAfterDoyenErnAndPiperno) {
   EXPECT_NEAR(rebound / 10, 1, 2.0 / 200);
   EXPECT_LE(pressure, 1e-3);
   const std::string topic = "Bouncing bar, 200 elements", source = "Doyen, Ern, Piperno 2011";
-  report({topic, "first contact, s", format("1 +- %.4f (a step)", found.step), format("%.4f", found.first),
-          "", source});
-  report({topic, "contact time, s", "0.6667 +- 1 %", format("%.4f", lasted), "", source});
+  report({topic, "first contact, s", format("1 +- {:.4f} (a step)", found.step),
+          format("{:.4f}", found.first), "", source});
+  report({topic, "contact time, s", "0.6667 +- 1 %", format("{:.4f}", lasted), "", source});
   report({topic, "relative error of the pressure 300(1+t'), 1.1 s < t < 1.6 s", "<= 1e-3",
-          format("%.1e", pressure), "", source});
-  report({topic, "impulse, N s/m2", "266.667 +- h/L", format("%.3f", found.impulse), "", source});
-  report({topic, "velocity of the centre of mass at departure, m/s", "10 +- 2h/L", format("%.4f", rebound),
+          format("{:.1e}", pressure), "", source});
+  report({topic, "impulse, N s/m2", "266.667 +- h/L", format("{:.3f}", found.impulse), "", source});
+  report({topic, "velocity of the centre of mass at departure, m/s", "10 +- 2h/L", format("{:.4f}", rebound),
           "", source});
   report({topic, "energy lost at the surface over that of the fall, 400 elements", "O(h), <= h/L = 0.0025",
-          format("%.6f", loss[3]), orders, "kinetic energy of the surface nodes"});
+          format("{:.6f}", loss[3]), orders, "kinetic energy of the surface nodes"});
 }

@@ -103,10 +103,10 @@ TEST(Laminate, OfTwoIsotropicLayersIsExact) {
       EXPECT_LE(error, rounding) << "axis " << axis;
       worst = std::max(worst, error);
     }
-    const std::string topic = format("Laminate 30/80 GPa, half and half, normal %c", axis == 0 ? 'x' : 'y');
+    const std::string topic = format("Laminate 30/80 GPa, half and half, normal {}", axis == 0 ? 'x' : 'y');
     report({topic, "C along the layers; C across; C12; C66, GPa",
             "71.228771; 58.741259; 25.174825; 16.783217",
-            format("%.6f; %.6f; %.6f; %.6f", 1e-9 * found(along, along), 1e-9 * found(axis, axis),
+            format("{:.6f}; {:.6f}; {:.6f}; {:.6f}", 1e-9 * found(along, along), 1e-9 * found(axis, axis),
                    1e-9 * found(0, 1), 1e-9 * found(2, 2)),
             "", "exact solution"});
     report({topic, "largest relative error, P1 and Q1", "<= 1e-10", shown_error(worst, 1e-12), "",
@@ -162,9 +162,10 @@ TEST(HomogeneousCell, HasItsOwnStiffness) {
 /// J. Geophys. Res. 67 (1962) 4427). C_eff is given to slide as six numbers, as a user would.
 TEST(Laminate, GivesSlideTheSpeedsOfLongWaves) {
   const Eigen::Matrix3d c = found_laminate(Shape::triangles, 1);
-  const PetscChoice given({{"-material_all_stiffness", format("%.12g,%.12g,%.12g,%.12g,%.12g,%.12g", c(0, 0),
-                                                              c(1, 1), c(0, 1), c(2, 2), c(0, 2), c(1, 2))},
-                           {"-material_all_density", "3000"}});
+  const PetscChoice given(
+      {{"-material_all_stiffness", format("{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", c(0, 0), c(1, 1),
+                                          c(0, 1), c(2, 2), c(0, 2), c(1, 2))},
+       {"-material_all_density", "3000"}});
   Options options("slide", material_schema());
   options.know_names("region", {"block", "all"});
   const Material material = read_materials(options, {"block"}).front();
@@ -175,6 +176,6 @@ TEST(Laminate, GivesSlideTheSpeedsOfLongWaves) {
   EXPECT_NEAR(across.fast / fast, 1, rounding);
   EXPECT_NEAR(across.slow / slow, 1, rounding);
   report({"Laminate 30/80 GPa, 2000/4000 kg/m3, as slide's material", "wave speeds across the layers, m/s",
-          format("%.4f; %.4f", fast, slow), format("%.4f; %.4f", across.fast, across.slow), "",
+          format("{:.4f}; {:.4f}", fast, slow), format("{:.4f}; {:.4f}", across.fast, across.slow), "",
           "Backus 1962"});
 }

@@ -57,7 +57,7 @@ double largest_error(const std::vector<double>& found, const std::vector<double>
 
 std::string listed(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += format(text.empty() ? "%.6g" : "; %.6g", value);
+  for (const double value : values) text += (text.empty() ? "" : "; ") + format("{:.6g}", value);
   return text;
 }
 
@@ -84,9 +84,9 @@ void check(const Discs& discs, CellShape shape) {
     const Phases& phases = discs.phases[p];
     EXPECT_LE(errors[p][2], bound) << discs.name << ", " << cell_name(shape);
     EXPECT_NEAR(order(errors[p]), 2, 0.25) << discs.name << ", " << cell_name(shape);
-    report({format("%s, %g/%g GPa", discs.name.c_str(), phases.matrix, phases.inclusion),
-            format("%s, GPa, 64 %s elements per cell", phases.moduli.c_str(), cell_name(shape)),
-            listed(phases.expected) + " +- .05 %", listed(found[p]), format("%.2f", order(errors[p])),
+    report({format("{}, {:g}/{:g} GPa", discs.name, phases.matrix, phases.inclusion),
+            format("{}, GPa, 64 {} elements per cell", phases.moduli, cell_name(shape)),
+            listed(phases.expected) + " +- .05 %", listed(found[p]), format("{:.2f}", order(errors[p])),
             "semi-analytic, computed separately"});
   }
 }
@@ -131,8 +131,8 @@ TEST(EqualShearModuli, GiveHillsStiffness) {
     EXPECT_LE(errors[2], bound) << cell_name(shape);
     EXPECT_NEAR(order(errors), 2, 0.25) << cell_name(shape);
     report({"Equal shear moduli, random discs",
-            format("k; G, GPa, 96 %s elements per cell", cell_name(shape)),
-            format("%.4f; 10.0000 +- .05 %%", 1e-9 * bulk), format("%.4f; %.4f", found[0], found[1]),
-            format("%.2f", order(errors)), "Hill 1964"});
+            format("k; G, GPa, 96 {} elements per cell", cell_name(shape)),
+            format("{:.4f}; 10.0000 +- .05 %", 1e-9 * bulk), format("{:.4f}; {:.4f}", found[0], found[1]),
+            format("{:.2f}", order(errors)), "Hill 1964"});
   }
 }

@@ -78,7 +78,7 @@ TEST(CellConditions, KeepTheIdentitiesAndTheirOrder) {
                  below = excess(periodic.stiffness, subc.stiffness);
     EXPECT_GT(above, 1e-4);  // a cell that touches inclusions with its sides feels the conditions
     EXPECT_GT(below, 1e-4);
-    const std::string topic = format("Random discs, f .3, 30/80 GPa, %s, periodic, kubc and subc",
+    const std::string topic = format("Random discs, f .3, 30/80 GPa, {}, periodic, kubc and subc",
                                      shape == CellShape::triangle ? "P1" : "Q1");
     const auto row = [&](const char* quantity, double defect, const char* source) {
       report({topic, quantity, "<= 1e-9", shown_error(defect, 1e-11), "", source});
@@ -88,6 +88,6 @@ TEST(CellConditions, KeepTheIdentitiesAndTheirOrder) {
     row("symmetry defect of C", found.symmetry, "Maxwell and Betti");
     row("f (C2 - C1):A2 = C - C1, relative residual", found.identity, "identity of two phases");
     report({topic, "smallest eigenvalue of C_kubc - C_periodic; C_periodic - C_subc, over the largest",
-            "> 0; > 0", format("%.4f; %.4f", above, below), "", "minimum principles"});
+            "> 0; > 0", format("{:.4f}; {:.4f}", above, below), "", "minimum principles"});
   }
 }

@@ -7,7 +7,7 @@
 
 #include "scenes.hpp"
 #include "slipscale/base/print.hpp"
-#include "slipscale/cell/cell_problem.hpp"
+#include "slipscale/homogenize/cell_problem.hpp"
 
 namespace slipscale::testing_support {
 
@@ -21,7 +21,7 @@ inline double relative_difference(const Eigen::Matrix3d& found, const Eigen::Mat
 /// An error for the table: rounding errors differ from rank count to rank count, so only their bound is
 /// shown.
 inline std::string shown_error(double error, double rounding) {
-  return error < rounding ? format("< %.0e", rounding) : format("%.1e", error);
+  return error < rounding ? format("< {:.0e}", rounding) : format("{:.1e}", error);
 }
 
 /// PETSc options that hold while the object lives.

@@ -86,13 +86,13 @@ void check_centre(const Refinement& cells, const std::string& elements) {
   EXPECT_LE(errors[1], bound) << elements;
   EXPECT_LE(errors[2], bound / 4) << elements;
   EXPECT_GE(order(errors), 2 - 0.25) << elements;  // meshes that are not nested: see cells_arrays.cpp
-  const std::string shown = format("%.2f", order(errors));
+  const std::string shown = format("{:.2f}", order(errors));
   report({topic, "centre, E_xx = 1: strain xx; yy, " + elements, "0.658879; -0.074739 +- 1.25e-4",
-          format("%.6f; %.6f", stretch[0], stretch[1]), shown, source});
+          format("{:.6f}; {:.6f}", stretch[0], stretch[1]), shown, source});
   report({topic, "centre, E_xx = 1: stress xx; yy, GPa, " + elements, "67.5067; 22.3610 +- 0.0084",
-          format("%.4f; %.4f", stretch[3], stretch[4]), shown, source});
+          format("{:.4f}; {:.4f}", stretch[3], stretch[4]), shown, source});
   report({topic, "centre, E_xy = 1: stress xy, GPa, " + elements, "31.5952 +- 0.0039",
-          format("%.4f", shear[5]), shown, source});
+          format("{:.4f}", shear[5]), shown, source});
 }
 
 /// Semi-analytic: σ_xx at θ = 0, the same on either side. Extrapolated from the inclusion's cells within
@@ -109,13 +109,13 @@ void check_interface(const Refinement& cells, const std::string& elements) {
   }
   EXPECT_GE(order(errors), 1) << elements;
   report({topic, "interface at 0 degrees, E_xx = 1: stress xx, GPa, " + elements,
-          format("%.4f +- %.2f", expected, 2.8 * cells[2].size / radius), format("%.4f", stress),
-          format("%.2f", order(errors)), source});
+          format("{:.4f} +- {:.2f}", expected, 2.8 * cells[2].size / radius), format("{:.4f}", stress),
+          format("{:.2f}", order(errors)), source});
 }
 
 void check_local(CellShape shape, const char* name) {
   const Refinement cells{disc_cell(32, shape), disc_cell(64, shape), disc_cell(128, shape)};
-  const std::string elements = format("128 %s elements per cell", name);
+  const std::string elements = format("128 {} elements per cell", name);
   check_centre(cells, elements);
   check_interface(cells, elements);
 }

@@ -56,6 +56,6 @@ TEST(CellSolver, FindsTheSameOnAnyRanks) {
     report({"Same cell on any number of ranks",
             std::string("difference of C (relative) and of A to one rank, ") +
                 (iterative ? "multigrid" : "factorisation"),
-            format("<= %.0e", bound), shown_error(worst, bound / 4), "", "residual to 1e-10"});
+            format("<= {:.0e}", bound), shown_error(worst, bound / 4), "", "residual to 1e-10"});
   }
 }

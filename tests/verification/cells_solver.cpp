@@ -59,8 +59,8 @@ void Series::add(const Mesh& mesh, const Contrast& contrast, PetscInt allowed) {
   for (const CaseCost& cost : found.cost) EXPECT_EQ(cost.newton_steps, 1);
   difference = std::max(difference, relative_difference(found.stiffness, exact.stiffness));
   const char* separator = contrasts.empty() ? "" : "; ";
-  contrasts += format("%s%g", separator, contrast.young);
-  iterations += format("%s%d", separator, static_cast<int>(most));
+  contrasts += format("{}{:g}", separator, contrast.young);
+  iterations += format("{}{}", separator, static_cast<int>(most));
 }
 
 }  // namespace
@@ -79,8 +79,8 @@ TEST(CellSolver, ConvergesAtAnyContrast) {
     for (const double young : {2.0, 1e-4, 1e-2, 1e2, 1e4})
       if (poisson == 0.3 || young == 2 || young == 1e4)
         series.add(mesh, {young, poisson}, static_cast<PetscInt>(times * static_cast<double>(least)));
-    report({topic, format("iterations at contrast %s, Poisson's ratio %g", series.contrasts.c_str(), poisson),
-            format("<= %.1f times those of contrast 2 and .3", times), series.iterations, "",
+    report({topic, format("iterations at contrast {}, Poisson's ratio {:g}", series.contrasts, poisson),
+            format("<= {:.1f} times those of contrast 2 and .3", times), series.iterations, "",
             poisson == 0.3 ? "requirement" : "requirement, times the root of the condition"});
     difference = std::max(difference, series.difference);
   }

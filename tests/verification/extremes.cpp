@@ -53,7 +53,7 @@ TEST(Extremes, Contrast) {
       };
       const auto run = run_watched(block, {scene_r_material(), isotropic(45e9 * contrast, 0.25, 1800)},
                                    pressed_scene(), steps);
-      group.add(run.seen, run.reach, format("contrast %g", contrast));
+      group.add(run.seen, run.reach, format("contrast {:g}", contrast));
     }
   group.report_worst();
 }
@@ -62,7 +62,7 @@ TEST(Extremes, PoissonsRatio) {
   Group group("Poisson's ratio -.9 to .4999");
   for (const double poisson : {-0.9, 0.0, 0.49, 0.499, 0.4999}) {
     const auto run = run_watched(pressed_block(), {isotropic(45e9, poisson, 1800)}, pressed_scene(), steps);
-    group.add(run.seen, run.reach, format("ratio %g", poisson));
+    group.add(run.seen, run.reach, format("ratio {:g}", poisson));
   }
   group.report_worst();
 }
@@ -82,7 +82,7 @@ TEST(Extremes, Meshes) {
   upright.width = 57 * (upright.height / 4) * sliver;
   for (const Block& block : {single, torus, flat, upright}) {
     const auto run = run_watched(block, {scene_r_material()}, pressed_scene(), steps);
-    group.add(run.seen, run.reach, format("%d x %d cells", block.nx, block.ny));
+    group.add(run.seen, run.reach, format("{} x {} cells", block.nx, block.ny));
   }
   group.report_worst();
   torus.nx = 2;
@@ -97,12 +97,12 @@ TEST(Extremes, CoefficientOfFriction) {
     for (const Law law : {Law::coulomb, Law::regularized}) {
       const auto run =
           run_watched(pressed_block(), {scene_r_material()}, with_law(law, coefficient, 0.6e-6), steps);
-      group.add(run.seen, run.reach, format("mu %g", coefficient));
+      group.add(run.seen, run.reach, format("mu {:g}", coefficient));
       if (coefficient == 0) frictionless = std::max(frictionless, run.seen.traction);
     }
   group.report_worst();
   EXPECT_EQ(frictionless, 0);
-  report({topic, "mu = 0: largest traction, Pa", "0", format("%g", frictionless), "", "Coulomb's law"});
+  report({topic, "mu = 0: largest traction, Pa", "0", format("{:g}", frictionless), "", "Coulomb's law"});
 }
 
 /// A separate prototype left 90 % open at μ = 2; its mesh and window are not known. Here
@@ -130,7 +130,8 @@ TEST(Extremes, MostIsOpenAtACoefficientOfTwo) {
   MPI_Allreduce(MPI_IN_PLACE, length, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   EXPECT_NEAR(length[0] / length[1], 0.9, 0.1);
   report({"Coefficient of friction 0 to 10", "scene R, h = .25 mm, mu = 2: open part, 62 to 100 us",
-          "0.9 +- 0.1", format("%.2f", length[0] / length[1]), "", "prototype, mesh and window not stated"});
+          "0.9 +- 0.1", format("{:.2f}", length[0] / length[1]), "",
+          "prototype, mesh and window not stated"});
 }
 
 /// A regularised traction differs from Coulomb's by the part T/Δt of a change of pressure where T is short,
@@ -143,7 +144,7 @@ TEST(Extremes, RegularisationLength) {
     for (const bool stored_strength : {false, true}) {
       const Scene scene = with_law(Law::regularized, 0.5, length / speed, stored_strength);
       const auto run = run_watched(pressed_block(), {scene_r_material()}, scene, steps);
-      group.add(run.seen, run.reach, format("length %g m", length));
+      group.add(run.seen, run.reach, format("length {:g} m", length));
     }
   group.report_worst();
 
@@ -160,12 +161,14 @@ TEST(Extremes, RegularisationLength) {
   const double order[2] = {std::log10(from(coulomb, 1e-12) / shorter) / 3,
                            std::log10(from(smooth, 1) / longer) / 3};
   for (const double p : order) EXPECT_NEAR(p, 1, 0.01);
-  const char* const what = ": distance to %s over what friction does, 10 us";
-  report({topic, "L* = 0" + format(what, "Coulomb"), "0", format("%g", none), "", "L* to 0 is Coulomb"});
-  report({topic, "L* = 1e-15 m" + format(what, "Coulomb"), format("<= %.1e", 1e-15 / speed / dt),
-          format("%.1e", shorter), format("%.2f in L*", order[0]), "T/dt, linear in T"});
-  report({topic, "L* = 1e3 m" + format(what, "no friction"), format("<= %.1e", end * speed / 1e3),
-          format("%.1e", longer), format("%.2f in 1/L*", order[1]), "t/T, linear in 1/T"});
+  const auto distance_to = [](const char* law) {
+    return format(": distance to {} over what friction does, 10 us", law);
+  };
+  report({topic, "L* = 0" + distance_to("Coulomb"), "0", format("{:g}", none), "", "L* to 0 is Coulomb"});
+  report({topic, "L* = 1e-15 m" + distance_to("Coulomb"), format("<= {:.1e}", 1e-15 / speed / dt),
+          format("{:.1e}", shorter), format("{:.2f} in L*", order[0]), "T/dt, linear in T"});
+  report({topic, "L* = 1e3 m" + distance_to("no friction"), format("<= {:.1e}", end * speed / 1e3),
+          format("{:.1e}", longer), format("{:.2f} in 1/L*", order[1]), "t/T, linear in 1/T"});
 }
 
 /// At rest all is symmetric, and a slow surface carries the bottom along: no point goes farther than Vt.
@@ -181,7 +184,7 @@ TEST(Extremes, SurfaceSpeed) {
     };
     for (const double v : {0.0, 1e-9, 1e-6, 1e-3, 1.0, 100.0}) {
       const auto run = run_watched(pressed_block(), {scene_r_material()}, at(v), steps);
-      group.add(run.seen, run.reach, format("speed %g m/s", v));
+      group.add(run.seen, run.reach, format("speed {:g} m/s", v));
       if (v == 0) at_rest = std::max(at_rest, std::abs(run.seen.drag / run.seen.load));
     }
     const auto still = end_state(at(0));
@@ -193,6 +196,6 @@ TEST(Extremes, SurfaceSpeed) {
   report({topic, "V = 0: tangential over normal force of the surface", "<= 1e-14", decade_above(at_rest), "",
           "symmetry"});
   EXPECT_LE(farthest, 1);
-  report({topic, "V = 1e-9 and 1e-6 m/s, 10 us: distance to V = 0 over V t", "<= 1", format("%.3f", farthest),
-          "", "the bottom sticks to the surface"});
+  report({topic, "V = 1e-9 and 1e-6 m/s, 10 us: distance to V = 0 over V t", "<= 1",
+          format("{:.3f}", farthest), "", "the bottom sticks to the surface"});
 }

@@ -120,11 +120,11 @@ TEST_F(ExtremeSteps, FreeBodyGrowsAboveTheLimitOnly) {
     EXPECT_GT(expected, 1.001) << d.name;
     EXPECT_NEAR((above - 1) / (expected - 1), 1, 1e-3) << d.name;
     report({topic, std::string("1.001, free body, dissipation by ") + d.name + ": growth a step",
-            format("%.5f", expected), format("%.5f", above), "",
+            format("{:.5f}", expected), format("{:.5f}", above), "",
             "largest eigenvalue of one oscillator's step"});
   }
   EXPECT_LE(below, 1.001);  // of what is bounded, the largest speed still wanders
-  report({topic, ".999, free body, all of these: growth a step", "<= 1.001", format("%.2f", below), "",
+  report({topic, ".999, free body, all of these: growth a step", "<= 1.001", format("{:.2f}", below), "",
           "exact stability limit"});
 }
 
@@ -146,14 +146,14 @@ TEST_F(ExtremeSteps, AreRefusedAboveTheLimit) {
       (void)choose_step(PETSC_COMM_WORLD, model, scene, time);
     } catch (const UserError& error) {
       const std::string sentence = error.what();
-      const bool both = sentence.find(format("-time_step is %.6g s", 1.001 * limit)) != std::string::npos &&
-                        sentence.find(format("stable step of %.6g s", limit)) != std::string::npos;
+      const bool both = sentence.find(format("-time_step is {:.6g} s", 1.001 * limit)) != std::string::npos &&
+                        sentence.find(format("stable step of {:.6g} s", limit)) != std::string::npos;
       EXPECT_TRUE(both) << sentence;
       refused += both;
     }
   }
   EXPECT_EQ(refused, 6);
-  report({topic, "1.001: refused with step and limit in the sentence", "6 of 6", format("%d of 6", refused),
+  report({topic, "1.001: refused with step and limit in the sentence", "6 of 6", format("{} of 6", refused),
           "", "exact stability limit"});
 }
 
@@ -176,6 +176,6 @@ TEST_F(ExtremeSteps, InContact) {
   group.report_worst();
   EXPECT_NEAR(friction[1] / friction[0], 1, 0.1);
   report({topic, "1.001, in contact, undamped: mean friction over 100 us",
-          format("%.3f at .999", friction[0]), format("%.3f", friction[1]), "",
+          format("{:.3f} at .999", friction[0]), format("{:.3f}", friction[1]), "",
           "looks plausible: the step must be checked"});
 }

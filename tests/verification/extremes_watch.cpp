@@ -84,11 +84,12 @@ void Group::add(const Watched& run, double reach, const std::string& what) {
 
 void Group::report_worst() const {
   report({topic_,
-          format("%d runs: energy residual; penetration; tau beyond mu p; slip against tau; u over U + V t",
+          format("{} runs: energy residual; penetration; tau beyond mu p; slip against tau; u over U + V t",
                  runs_),
           "< 1e-12; <= 1e-14; <= 1e-14; <= 1e-14; <= 2",
           "<= " + decade_above(worst_.residual) + "; " + decade_above(worst_.penetration) + "; " +
-              decade_above(worst_.excess) + "; " + decade_above(worst_.against) + format("; %.1g", reached_),
+              decade_above(worst_.excess) + "; " + decade_above(worst_.against) +
+              format("; {:.1g}", reached_),
           "", "rounding"});
 }
 
@@ -113,7 +114,7 @@ Watched watch(SlidingBody& body, long steps) {
 }
 
 std::string decade_above(double value) {
-  return value > 0 ? format("%.0e", std::pow(10, std::ceil(std::log10(value)))) : "0";
+  return value > 0 ? format("{:.0e}", std::pow(10, std::ceil(std::log10(value)))) : "0";
 }
 
 Scene pressed_scene() {

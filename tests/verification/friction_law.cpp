@@ -75,9 +75,9 @@ TEST(FrictionLaw, FollowsAnOscillatingPressure) {
                                    response(regularized_laws[0], time, 100).error);
     EXPECT_GT(order, 1.9) << "T = " << time;
     report({"Friction law under p = p0 (1 + 0.2 cos wt), both rates, both thresholds",
-            format("wT = %.3f: gain, lag in rad, 200 steps a period", worst.phase),
-            format("%.4f, %.4f within 1e-4", 1 / std::hypot(1, worst.phase), std::atan(worst.phase)),
-            format("%.4f, %.4f", worst.gain, worst.lag), format("%.1f", order),
+            format("wT = {:.3f}: gain, lag in rad, 200 steps a period", worst.phase),
+            format("{:.4f}, {:.4f} within 1e-4", 1 / std::hypot(1, worst.phase), std::atan(worst.phase)),
+            format("{:.4f}, {:.4f}", worst.gain, worst.lag), format("{:.1f}", order),
             "1/sqrt(1 + w^2 T^2), atan wT"});
   }
 }
@@ -93,9 +93,9 @@ TEST(FrictionLaw, MovesOneDegreeOfFreedom) {
     EXPECT_NEAR(fine, expected, 5e-7);
     const double order = std::log2((coarse - expected) / (fine - expected));
     EXPECT_GT(order, 1.9);
-    report({"One degree of freedom, m = k = mu p = 1, T = 0.3 s, dt 1 ms", format("x(%g s) in slip, m", end),
-            format("%.9f within 5e-7", expected), format("%.9f", fine), format("%.1f", order),
-            "exact solution"});
+    report({"One degree of freedom, m = k = mu p = 1, T = 0.3 s, dt 1 ms",
+            format("x({:g} s) in slip, m", end), format("{:.9f} within 5e-7", expected),
+            format("{:.9f}", fine), format("{:.1f}", order), "exact solution"});
   }
 }
 
@@ -119,8 +119,9 @@ TEST(FrictionLaw, ReversesAndSticks) {
         }
       }
     report({"One degree of freedom, m = k = mu p = 1, T = 0.3 s, dt 1 ms",
-            format("%s: largest error of x(5 s) of both rates and thresholds, m", motion.text),
-            "below 1e-3 (1 m/s dt)", format("%.1e", worst), "", "equations of stick and slip, Runge-Kutta"});
+            format("{}: largest error of x(5 s) of both rates and thresholds, m", motion.text),
+            "below 1e-3 (1 m/s dt)", format("{:.1e}", worst), "",
+            "equations of stick and slip, Runge-Kutta"});
   }
 }
 
@@ -148,8 +149,8 @@ TEST(FrictionLaw, ReversesFromSlipToSlip) {
     if (law.by_slip_rate) continue;  // the same story
     report({"One degree of freedom, slip reverses at once, 16 steps of 0.9 to 1 ms",
             std::string(law.text) + ": x(5 s), m",
-            law.stored_strength ? format("%.3f within 1e-3", restarted)
-                                : format("%.3f (memory kept) to %.3f (restarted)", kept, restarted),
-            format("%.3f to %.3f", lowest, highest), "", "equations of stick and slip, Runge-Kutta"});
+            law.stored_strength ? format("{:.3f} within 1e-3", restarted)
+                                : format("{:.3f} (memory kept) to {:.3f} (restarted)", kept, restarted),
+            format("{:.3f} to {:.3f}", lowest, highest), "", "equations of stick and slip, Runge-Kutta"});
   }
 }

@@ -78,7 +78,7 @@ long most_differing(double time, const Ended& limit, double speed) {
 
 void report_limit(const char* quantity, long most, const char* source) {
   report({"Limits of the regularized law, scene R pressed down in 2 us, t = 60 us", quantity, "0 of 441",
-          format("%ld of 441", most), "", source});
+          format("{} of 441", most), "", source});
 }
 
 /// Dissipation of friction, node by node and step by step, over a run.
@@ -208,5 +208,5 @@ TEST(FrictionDissipation, IsNeverNegative) {
   report(
       {"Dissipation tau (V - du_x/dt) over mu p V, every contact node and step of 100 us of chaotic contact",
        "smallest, of Coulomb and the regularized law with both rates and thresholds",
-       format(">= -%.0e (rounding of u)", bound), format("%.1e", smallest), "", "second law"});
+       format(">= -{:.0e} (rounding of u)", bound), format("{:.1e}", smallest), "", "second law"});
 }

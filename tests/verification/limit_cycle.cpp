@@ -140,7 +140,7 @@ std::vector<double> distances_to_finest(double relaxation_time) {
 
 std::string joined(const std::vector<double>& values, int digits) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " / ") + format("%.*f", digits, value);
+  for (const double value : values) text += (text.empty() ? "" : " / ") + format("{:.{}f}", value, digits);
   return text;
 }
 
@@ -152,7 +152,7 @@ void expect(const std::string& quantity, const std::vector<double>& expected,
     EXPECT_NEAR(found[k], expected[k], relative * expected[k] + absolute) << quantity << ", mesh " << k;
   report({limit_cycle_topic, quantity,
           joined(expected, digits) +
-              (relative > 0 ? format(", within %g %%", 100 * relative) : format(", within %g", absolute)),
+              (relative > 0 ? format(", within {:g} %", 100 * relative) : format(", within {:g}", absolute)),
           joined(found, digits), "", prototype});
 }
 
@@ -176,7 +176,7 @@ void expect_convergence(const std::string& law, double relaxation_time) {
   EXPECT_GE(order, 1);
   EXPECT_LT(distance[2], distance[1]);
   report({undamped_topic, undamped_quantity + law, "falls, order at least 1", joined(distance, 3),
-          format("%.1f", order), paper});
+          format("{:.1f}", order), paper});
 }
 
 }  // namespace

@@ -94,9 +94,9 @@ TEST(NodeImpact, OfTheNodesOfABodyIsPlastic) {
     EXPECT_LE(found.rebound, 1e-13);
     EXPECT_NEAR(found.energy, 1, 1e-13);
     report({"Impact of the surface nodes of a body",
-            format("beta2 %.1f: impulse over m v; velocity left per step; energy lost over m v2/2", beta2),
-            format("1; %.4f; 1", ratio),
-            format("%.10f; %.4f; %.10f", found.impulse, std::abs(found.ratio), found.energy), "",
+            format("beta2 {:.1f}: impulse over m v; velocity left per step; energy lost over m v2/2", beta2),
+            format("1; {:.4f}; 1", ratio),
+            format("{:.10f}; {:.4f}; {:.10f}", found.impulse, std::abs(found.ratio), found.energy), "",
             "position constraint, lumped mass"});
   }
 }

@@ -117,8 +117,8 @@ TEST(RayleighWave, AlongAFreeSurfaceIsSecondOrder) {
     EXPECT_LE(std::abs(found[1].speed / exact - 1), bound);
     report({"Rayleigh wave, nu = 1/4, 64 cells a wave length",
             std::string(name) + ": phase speed/c_s; error of u after four periods",
-            format("%.5f within %.1f %%; order 2", exact, 100 * bound),
-            format("%.5f; %.4f", found[1].speed, found[1].error), format("%.2f; %.2f", order, field_order),
-            "exact root of Rayleigh's equation"});
+            format("{:.5f} within {:.1f} %; order 2", exact, 100 * bound),
+            format("{:.5f}; {:.4f}", found[1].speed, found[1].error),
+            format("{:.2f}; {:.2f}", order, field_order), "exact root of Rayleigh's equation"});
   }
 }

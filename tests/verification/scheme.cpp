@@ -103,9 +103,9 @@ Scene scene_of(const Choice& choice) {
 }
 
 std::string name_of(const Choice& choice, double omega) {
-  std::string name = format("beta2 %.1f", choice.beta2);
-  if (choice.damping.mass > 0) name += format(", a = %.1f omega", choice.damping.mass / omega);
-  if (choice.damping.stiffness > 0) name += format(", b = %.1f/omega", choice.damping.stiffness * omega);
+  std::string name = format("beta2 {:.1f}", choice.beta2);
+  if (choice.damping.mass > 0) name += format(", a = {:.1f} omega", choice.damping.mass / omega);
+  if (choice.damping.stiffness > 0) name += format(", b = {:.1f}/omega", choice.damping.stiffness * omega);
   return name;
 }
 
@@ -183,13 +183,13 @@ TEST(Scheme, SpectralRadiusAndPhase) {
       const double phase_order =
           std::log2((found[1] / 0.5 - 1) / (rotation(small, choice, 0.25).found[1] / 0.25 - 1));
       EXPECT_NEAR(phase_order, 2, 0.1);
-      order = format("%.2f", phase_order);
+      order = format("{:.2f}", phase_order);
     }
     if (undamped || (choice.damping.mass > 0 && choice.damping.stiffness > 0 && choice.beta2 == 0.8))
       report({"Time scheme, highest mode of a small body at omega dt = 0.5",
               name_of(choice, small.highest()) + ": spectral radius; relative phase error",
-              format("%.6f; %+.6f", exact[0], exact[1] / 0.5 - 1),
-              format("%.6f; %+.6f", found[0], found[1] / 0.5 - 1), order,
+              format("{:.6f}; {:+.6f}", exact[0], exact[1] / 0.5 - 1),
+              format("{:.6f}; {:+.6f}", found[0], found[1] / 0.5 - 1), order,
               "roots of the amplification polynomial"});
   }
 }
@@ -211,8 +211,8 @@ TEST(Scheme, LimitIsSharp) {
     EXPECT_NEAR(growth, root, 1e-8);
     if (choice.damping.mass == 0)
       report({"Stability limit", name_of(choice, omega) + ": omega dt; growth a step at 1.005 of it",
-              format("%.4f; %.6f", omega * exact, root), format("%.4f; %.6f", omega * limit, growth), "",
-              "roots of the amplification polynomial"});
+              format("{:.4f}; {:.6f}", omega * exact, root), format("{:.4f}; {:.6f}", omega * limit, growth),
+              "", "roots of the amplification polynomial"});
   }
 }
 
@@ -243,5 +243,5 @@ TEST(Scheme, StaysBoundedBelowTheLimit) {
   }
   report({"Stability limit",
           "largest u over its bound, 1e5 steps at 0.995 of the limit, 4 beta2 x 4 dampings", "<= 1",
-          format("%.3f", worst), "", "exact roots and modes"});
+          format("{:.3f}", worst), "", "exact roots and modes"});
 }

@@ -78,13 +78,13 @@ TEST(ShearSlab, AgreesWithTheExactSolution) {
     EXPECT_LE(fine.error, 1.8e-3) << "step " << part;
     EXPECT_GE(order, 1.1) << "step " << part;
     report({"Shear slab dragged by friction",
-            format("largest error of u, m, 100; 200 elements, dt %.2f h/c_s", part),
-            "<= 4e-3; 1.8e-3, order >= 1.1", format("%.2e; %.2e", coarse.error, fine.error),
-            format("%.2f", order), "exact solution"});
+            format("largest error of u, m, 100; 200 elements, dt {:.2f} h/c_s", part),
+            "<= 4e-3; 1.8e-3, order >= 1.1", format("{:.2e}; {:.2e}", coarse.error, fine.error),
+            format("{:.2f}", order), "exact solution"});
     if (part == 0.5)
       report({"Shear slab dragged by friction", "u(1); u(2); u(4), m, 200 elements, dt 0.50 h/c_s",
-              "0.900005; 1.900000; 0.100000", format("%.6f; %.6f; %.6f", fine.at[0], fine.at[1], fine.at[2]),
-              "", "exact solution"});
+              "0.900005; 1.900000; 0.100000",
+              format("{:.6f}; {:.6f}; {:.6f}", fine.at[0], fine.at[1], fine.at[2]), "", "exact solution"});
     for (const Outcome& outcome : {coarse, fine}) {
       EXPECT_NEAR(outcome.at[0], 0.900005, outcome.error);
       EXPECT_NEAR(outcome.at[1], 1.9, outcome.error);

@@ -54,7 +54,7 @@ Complex mode_found(const Case& c, int elements) {
   return nearest(exponents(motion.component(1, c.start), motion.interval, 1e-4), c.near);
 }
 
-std::string text_of(Complex s) { return format("%.6f, %.6f", s.real(), s.imag()); }
+std::string text_of(Complex s) { return format("{:.6f}, {:.6f}", s.real(), s.imag()); }
 
 /// Asked for: .3 % in growth and .1 % in frequency at 128 elements a wavelength. Space and time are second
 /// order, so half the elements give the order; with damping, which lags by half a step, it is not even.
@@ -65,8 +65,8 @@ void verify(const char* topic, const Case& c, double least_order) {
   EXPECT_NEAR(fine.imag() / expected.imag(), 1, 1e-3) << c.text;
   const double order = std::log2(std::abs(coarse - expected) / std::abs(fine - expected));
   EXPECT_GE(order, least_order) << c.text;
-  report({topic, format("%s, %d elements", c.text, c.elements), text_of(expected) + " within 0.3 %, 0.1 %",
-          text_of(fine), least_order > 0 ? format("%.1f", order) : "", "4 x 4 determinant, in the test"});
+  report({topic, format("{}, {} elements", c.text, c.elements), text_of(expected) + " within 0.3 %, 0.1 %",
+          text_of(fine), least_order > 0 ? format("{:.1f}", order) : "", "4 x 4 determinant, in the test"});
 }
 
 /// The stiffness of a solid turned by an angle, Voigt.
@@ -142,9 +142,9 @@ TEST(SlabInstability, HasTheModeOfCoulombFriction) {
     EXPECT_NEAR(found.real() / expected.real(), 1, 3e-3);
     EXPECT_NEAR(found.imag() / expected.imag(), 1, 1e-3);
     report({"Frictional instability of a slab: growth, frequency over k c_s (K = k c_s T)",
-            format("kH 2, mu %.1f, nu 0.3, K 0 (Coulomb), from 32 and 64 elements", friction),
-            text_of(expected) + " within 0.3 %, 0.1 %", format("%.4f, %.4f", found.real(), found.imag()),
-            format("%.1f", std::log2(std::abs(coarse - expected) / std::abs(fine - expected))),
+            format("kH 2, mu {:.1f}, nu 0.3, K 0 (Coulomb), from 32 and 64 elements", friction),
+            text_of(expected) + " within 0.3 %, 0.1 %", format("{:.4f}, {:.4f}", found.real(), found.imag()),
+            format("{:.1f}", std::log2(std::abs(coarse - expected) / std::abs(fine - expected))),
             "4 x 4 determinant, in the test"});
   }
 }
@@ -186,8 +186,8 @@ TEST(GridScaleMode, GrowsFasterOnEveryFinerMeshWithCoulomb) {
   EXPECT_NEAR(found[2] / found[1], 2, 0.02);
   report({"Grid-scale mode, wavelength 3.56 h, mu 0.5, H 1.96",
           "Coulomb, growth rate over c_s/m with 32, 64, 128 elements in 6.28 m",
-          format("%.3f, %.3f, %.3f: doubles", expected[0], expected[1], expected[2]),
-          format("%.3f, %.3f, %.3f", found[0], found[1], found[2]), "",
+          format("{:.3f}, {:.3f}, {:.3f}: doubles", expected[0], expected[1], expected[2]),
+          format("{:.3f}, {:.3f}, {:.3f}", found[0], found[1], found[2]), "",
           "eigenvalues of one column of nodes, in the test"});
 }
 
@@ -216,6 +216,7 @@ TEST(GridScaleMode, IsAbsentWithTheRegularizedLaw) {
   }
   report({"Grid-scale mode, wavelength 3.56 h, mu 0.5, H 1.96",
           "c_s T = 2h, growth rate over c_s/h of any wave from 2h to 8h, 64 and 128 elements",
-          format("below a tenth of Coulomb's %.3f", coulomb), format("%.4f, %.4f", largest[0], largest[1]),
-          "", "eigenvalues of one column of nodes, in the test"});
+          format("below a tenth of Coulomb's {:.3f}", coulomb),
+          format("{:.4f}, {:.4f}", largest[0], largest[1]), "",
+          "eigenvalues of one column of nodes, in the test"});
 }

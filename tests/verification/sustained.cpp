@@ -43,7 +43,7 @@ std::vector<double> column(const std::vector<StripMeans>& means, double StripMea
 
 std::string joined(const std::vector<double>& values, int digits) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " / ") + format("%.*f", digits, value);
+  for (const double value : values) text += (text.empty() ? "" : " / ") + format("{:.{}f}", value, digits);
   return text;
 }
 
@@ -85,7 +85,7 @@ void expect_little_scatter(const char* topic, Strip strip) {
   }
   EXPECT_LE(scatter, load_bound.value / 3);
   report({topic, "scatter of friction, load and power over half windows and seeds x 0.5 / 1 / 2, nx = 64, %",
-          "at most 0.1, a third of the tightest bound", format("%.4f", 100 * scatter), "",
+          "at most 0.1, a third of the tightest bound", format("{:.4f}", 100 * scatter), "",
           "what the averages can resolve"});
 }
 
@@ -170,5 +170,5 @@ TEST(Sustained, AveragesDoNotSettleWithoutBulkDamping) {
   const double change = std::abs(load[1] / load[0] - 1);
   EXPECT_GT(change, 10 * load_bound.value);
   report({stick_slip, "change of the mean load from nx = 64 to 128 without bulk damping, %",
-          "above 3: does not settle", format("%.0f", 100 * change), "", prototype});
+          "above 3: does not settle", format("{:.0f}", 100 * change), "", prototype});
 }

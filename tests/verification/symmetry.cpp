@@ -34,12 +34,12 @@ double worst(const Other& other) {
 
 void expect_rounding(const std::string& quantity, double difference) {
   EXPECT_LE(difference, rounding);
-  report({topic, quantity, "at most 1e-10", format("%.1e", difference), "", "exact symmetry"});
+  report({topic, quantity, "at most 1e-10", format("{:.1e}", difference), "", "exact symmetry"});
 }
 
 void expect_same_bits(const std::string& quantity, double difference) {
   EXPECT_EQ(difference, 0);
-  report({topic, quantity, "0, every bit", format("%g", difference), "", "exact symmetry"});
+  report({topic, quantity, "0, every bit", format("{:g}", difference), "", "exact symmetry"});
 }
 
 double change_of_units(const Units& units) {

@@ -118,9 +118,9 @@ void expect_second_order(const Solid& solid, const Grid& grid, int which) {
   const std::string kind = (solid.name == "isotropic" ? "" : "quasi-") + std::string(which ? "P" : "S");
   report({"Plane wave at 53 deg, " + solid.name + ", 64x48",
           grid.name + ", " + kind + ": phase speed, m/s; largest error of u in a period",
-          format("%.2f within %.1f %%; order 2", wave.speed, 100 * bound),
-          format("%.2f; %.4f", found[1].speed, found[1].error), format("%.2f; %.2f", order, field_order),
-          "exact solution, Christoffel equation"});
+          format("{:.2f} within {:.1f} %; order 2", wave.speed, 100 * bound),
+          format("{:.2f}; {:.4f}", found[1].speed, found[1].error),
+          format("{:.2f}; {:.2f}", order, field_order), "exact solution, Christoffel equation"});
 }
 
 }  // namespace

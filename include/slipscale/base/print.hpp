@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -8,8 +10,9 @@ namespace slipscale {
 /// Prints to standard output on rank 0 of PETSC_COMM_WORLD and flushes.
 void print(const std::string& text);
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+/// Values into a text: `format("{:.3g} m", length)`. libfmt's, which checks the pattern when it is compiled;
+/// the standard library's std::format takes the same patterns.
+using fmt::format;
 
 /// Columns padded to their widest cell, two spaces apart, the first row underlined as the heading. The first
 /// column is flush left, the others flush right.

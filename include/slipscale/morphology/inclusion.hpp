@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slipscale/base/box.hpp"
 #include "slipscale/base/vector2.hpp"
 
 namespace slipscale {
@@ -40,13 +41,6 @@ double perimeter(const Inclusion& inclusion);  ///< m
 
 /// Values of t, ascending, at which the outline crosses the line x[axis] = at; none, or two.
 std::vector<double> crossings(const Inclusion& inclusion, int axis, double at);
-
-/// A rectangle with sides along the axes, m.
-struct Box {
-  Vector2 low{}, high{};
-  double width() const { return high[0] - low[0]; }
-  double height() const { return high[1] - low[1]; }
-};
 
 /// Area of the part of the inclusion that lies in the box, m²; to 1e-9 of the inclusion's area.
 double area_inside(const Inclusion& inclusion, const Box& box);

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "slipscale/files/mesh_image.hpp"
 #include "slipscale/mesh/mesh.hpp"
-#include "slipscale/record/mesh_image.hpp"
 
 namespace slipscale {
 
@@ -62,5 +62,9 @@ class FieldsFile {
   std::string xdmf_path_;
   std::unique_ptr<XdmfDocument> xdmf_;
 };
+
+/// Predicted size of fields.h5 after `frames` frames, bytes.
+double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
+                    const FieldQuantities& quantities);
 
 }  // namespace slipscale

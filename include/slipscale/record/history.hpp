@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "slipscale/files/series_file.hpp"
 #include "slipscale/record/observation.hpp"
 #include "slipscale/record/probes.hpp"
-#include "slipscale/record/series_file.hpp"
 
 namespace slipscale {
 

@@ -27,7 +27,7 @@ struct RecordChoice {
   std::optional<long> fields_every;   ///< steps
   std::vector<double> fields_times;   ///< s
   FieldQuantities quantities;
-  std::optional<BoundingBox> fields_box;
+  std::optional<Box> fields_box;
   std::optional<StatisticsChoice> statistics;
   std::string progress;
 };

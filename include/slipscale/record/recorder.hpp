@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "slipscale/files/output_folder.hpp"
+#include "slipscale/files/progress.hpp"
 #include "slipscale/record/fields_file.hpp"
 #include "slipscale/record/history.hpp"
 #include "slipscale/record/observation.hpp"
-#include "slipscale/record/output_folder.hpp"
-#include "slipscale/record/progress.hpp"
 #include "slipscale/record/record_choice.hpp"
 #include "slipscale/record/stress_statistics.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "slipscale/dynamics/scene.hpp"
+#include "slipscale/files/running_statistics.hpp"
 #include "slipscale/record/record_choice.hpp"
-#include "slipscale/record/running_statistics.hpp"
 
 namespace slipscale {
 

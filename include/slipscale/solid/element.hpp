@@ -24,10 +24,6 @@ std::array<double, 4> corner_areas(std::span<const Vector2> corners);
 /// B at the centre of the cell.
 StrainDisplacement centre_strain_displacement(std::span<const Vector2> corners);
 
-/// Values of the shape functions at `point` when it lies in the cell (tolerance 1e-9 of its size); false
-/// otherwise.
-bool shape_values_at(std::span<const Vector2> corners, const Vector2& point, std::array<double, 4>& values);
-
 /// Largest eigenvalue of M⁻¹K of one cell with the row-sum mass of density `density` [kg/m³], 1/s². The
 /// largest over all cells bounds that of the whole body from above (Irons and Treharne 1971).
 double largest_element_eigenvalue(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity,

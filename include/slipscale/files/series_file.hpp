@@ -1,0 +1,86 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "slipscale/files/hdf5.hpp"
+
+namespace slipscale {
+
+/// An HDF5 file of growing datasets, one per quantity and one row per recorded step: history.h5, contact.h5.
+///
+/// Lives on one rank. Rows gather in memory and go to the disk in batches, all datasets by the same number of
+/// rows, so that a running job can be plotted and a killed one read: serial driver, default file format, no
+/// file locking. Nothing here throws, because the other ranks would wait for ever: a failure is kept in
+/// `fault`, which the caller shares with them (`throw_together`) when it suits, and after which all members
+/// do nothing.
+class SeriesFile {
+ public:
+  enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
+
+  /// Creates the file, over an older one. The first row is written at once, then a
+  /// batch when `seconds` have passed since the last, or more where writing is slow.
+  explicit SeriesFile(std::string path, double seconds = 0.5);
+  ~SeriesFile();
+  SeriesFile(SeriesFile&&) = default;
+  SeriesFile& operator=(SeriesFile&&) = delete;
+
+  /// Declares a quantity before the first row: dataset path, shape of one row ({} a number), SI unit, one
+  /// line. Returns its id.
+  int add(const std::string& path, const std::vector<hsize_t>& row_shape, const std::string& units,
+          const std::string& description, Storage storage = Storage::real);
+
+  /// Writes what does not grow, at once: `values` has the given shape.
+  void constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
+                const std::string& units, const std::string& description);
+
+  /// One row of a quantity; every quantity must be given one before `end_row`.
+  void append(int id, const double* row);
+  void append(int id, const std::uint8_t* row);
+  void append(int id, double value) { append(id, &value); }
+
+  /// Closes the row; writes the batch when it is time, or when it has grown large.
+  void end_row();
+  /// Writes the batch now.
+  void flush();
+  /// Writes the rest and closes the file.
+  void close();
+
+  /// One sentence on what went wrong; empty as long as all is well.
+  const std::string& fault() const { return fault_; }
+  hsize_t rows() const { return rows_; }                ///< complete ones, in memory and on disk
+  std::size_t row_bytes() const { return row_bytes_; }  ///< of all quantities together
+
+ private:
+  struct Column {
+    std::string path;
+    std::vector<hsize_t> row_shape;
+    Storage storage;
+    std::size_t bytes;  ///< of one row
+    Hdf5Dataset dataset;
+    std::vector<std::byte> batch;  ///< rows not yet on disk
+  };
+  using Clock = std::chrono::steady_clock;
+
+  template <class Action>
+  void guarded(const char* what, Action action);
+  void append_bytes(int id, const void* row, Storage storage);
+  void reserve();
+  void write_batch(Column& column);
+
+  std::string path_, fault_;
+  Hdf5File file_;
+  std::vector<Column> columns_;
+  hsize_t rows_ = 0, written_ = 0;
+  std::size_t row_bytes_ = 0;
+  double seconds_, pause_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// Predicted size in bytes of a file of growing datasets with `row_bytes` a row (see `SeriesFile::row_bytes`)
+/// in `datasets` of them.
+double series_bytes(double rows, double row_bytes, int datasets);
+
+}  // namespace slipscale

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "slipscale/files/file_order.hpp"
+#include "slipscale/files/hdf5.hpp"
+
+namespace slipscale {
+
+/// Runs what may fail on one rank alone, and lets all ranks fail with it. Collective.
+void write_together(MPI_Comm comm, const std::string& path, const std::function<void()>& action);
+
+/// A dataset's place, unit and meaning.
+struct DatasetDescription {
+  std::string path, units, text;
+};
+
+/// Rows [begin, begin + count) of a dataset of this shape are this rank's.
+struct DatasetSlice {
+  std::vector<hsize_t> shape;
+  hsize_t begin = 0, count = 0;
+};
+
+/// This rank's slice of rows of a shape ({} a number) in a file's order.
+DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row);
+
+/// HDF5's name of PetscInt in memory and in files.
+hid_t index_type();
+
+/// An HDF5 file that all ranks write together. What fails on one rank, a full disk say, throws UserError on
+/// all. All members are collective.
+class SharedFile {
+ public:
+  /// `whole`: under a temporary name until `finish`, and gone if that never comes; `growing`: under its own
+  /// name from the start, readable after every `flush`.
+  enum class Appearance { whole, growing };
+
+  /// `bytes`: what the file will soon have at most, set aside at once.
+  SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance = Appearance::whole);
+  ~SharedFile();
+  SharedFile(const SharedFile&) = delete;
+  SharedFile& operator=(const SharedFile&) = delete;
+
+  /// Writes a dataset from all ranks at once; `more` adds attributes to it.
+  void write(
+      const DatasetDescription& about, const DatasetSlice& slice, hid_t type, const void* rows,
+      const std::function<void(hid_t dataset)>& more = [](hid_t) {});
+  /// The same from the rows of width `shape_of_row` that each rank holds, in the order of `order`'s numbers.
+  void write(const DatasetDescription& about, const FileOrder& order,
+             const std::vector<hsize_t>& shape_of_row, const double* rows);
+
+  /// Declares a list of numbers that grows by `append`.
+  void add_series(const DatasetDescription& about);
+  void append(const std::string& series, double value);
+
+  /// A second path to a dataset.
+  void link(const std::string& from, const std::string& to);
+  /// Adds attributes to a dataset or group that exists.
+  void describe(const std::string& object, const std::function<void(hid_t object)>& attributes);
+
+  void reserve(double bytes);
+  void flush();
+  void finish();
+
+ private:
+  std::string name() const { return appearance_ == Appearance::whole ? path_ + ".partial" : path_; }
+  void discard();
+
+  MPI_Comm comm_;
+  int rank_ = 0;
+  std::string path_;
+  Appearance appearance_;
+  Hdf5File file_;
+  bool finished_ = false;
+};
+
+}  // namespace slipscale

@@ -1,0 +1,186 @@
+#include "slipscale/files/grid_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr int xdmf_triangle = 4, xdmf_quadrilateral = 5;
+
+Hdf5Dataset open(hid_t file, const std::string& path) {
+  return Hdf5Dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
+}
+
+std::vector<hsize_t> shape_of(hid_t dataset, const std::string& path) {
+  const Hdf5Space space(hdf5(H5Dget_space(dataset), path));
+  std::vector<hsize_t> shape(static_cast<std::size_t>(hdf5(H5Sget_simple_extent_ndims(space), path)));
+  hdf5(H5Sget_simple_extent_dims(space, shape.data(), nullptr), path);
+  return shape;
+}
+
+std::size_t entries(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+}
+
+void require(bool fine, const std::string& path, const char* fault) {
+  if (!fine) throw LibraryError(path + " " + fault);
+}
+
+/// XDMF's mixed stream: of each cell its code before its points.
+void unpack_stream(const std::vector<int>& stream, PlaneGrid& grid) {
+  for (std::size_t k = 0; k < stream.size();) {
+    const int code = stream[k++];
+    require(code == xdmf_triangle || code == xdmf_quadrilateral, "/mesh/cells",
+            "has a cell that is neither triangle nor quadrilateral");
+    const std::size_t count = code == xdmf_triangle ? 3 : 4;
+    require(k + count <= stream.size(), "/mesh/cells", "ends within a cell");
+    grid.corners.insert(grid.corners.end(), stream.begin() + static_cast<std::ptrdiff_t>(k),
+                        stream.begin() + static_cast<std::ptrdiff_t>(k + count));
+    grid.first.push_back(static_cast<int>(grid.corners.size()));
+    k += count;
+  }
+}
+
+bool all_within(const std::vector<int>& numbers, std::size_t count) {
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [&](int n) { return n >= 0 && static_cast<std::size_t>(n) < count; });
+}
+
+}  // namespace
+
+GridFile::GridFile(MPI_Comm comm, GridFileSource source) : comm_(comm), source_(std::move(source)) {
+  namespace fs = std::filesystem;
+  keep_hdf5_messages();
+  std::error_code ignored;
+  if (fs::is_directory(source_.path, ignored)) source_.path += "/" + source_.name;
+  std::string fault;
+  if (!fs::exists(source_.path, ignored))
+    fault = format("there is no file '{}' (-{}); {}", path(), source_.option, source_.cure);
+  else if (H5Fis_hdf5(path().c_str()) <= 0)
+    fault =
+        format("'{}' (-{}) is not an HDF5 file or cannot be read; {}", path(), source_.option, source_.cure);
+  throw_together(comm_, fault);
+  together([&] {
+    const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "preparing"));
+    hdf5(H5Pset_file_locking(access, 0, 1), "preparing");
+    file_ = Hdf5File(hdf5(H5Fopen(path().c_str(), H5F_ACC_RDONLY, access), "opening"));
+  });
+}
+
+void GridFile::together(const std::function<void()>& read) const {
+  std::string fault;
+  try {
+    read();
+  } catch (const LibraryError& error) {
+    fault = format("'{}' (-{}) is damaged or incomplete: {}; {}", path(), source_.option, error.what(),
+                   source_.cure);
+  }
+  throw_together(comm_, fault);
+}
+
+void GridFile::refuse_unless(bool fine, const std::string& fault, const std::string& cure) const {
+  throw_together(comm_, fine ? "" : format("'{}' (-{}) {}; {}", path(), source_.option, fault, cure));
+}
+
+bool GridFile::has(const std::string& dataset) const {
+  for (std::size_t end = dataset.find('/', 1);; end = dataset.find('/', end + 1)) {
+    if (H5Lexists(file_, dataset.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+PlaneGrid GridFile::grid() const {
+  PlaneGrid grid;
+  for (const char* dataset : {"/mesh/coordinates", "/mesh/cells", "/mesh/region"})
+    refuse_unless(has(dataset), format("has no {}, so it is not a {}", dataset, source_.name));
+  together([&] { read_mesh(grid); });
+  return grid;
+}
+
+void GridFile::read_mesh(PlaneGrid& grid) const {
+  const std::vector<double> x = reals("/mesh/coordinates");
+  const auto place = shape("/mesh/coordinates"), cells = shape("/mesh/cells");
+  require(place.size() == 2 && place[1] == 2, "/mesh/coordinates", "is not a list of x and y");
+  for (std::size_t k = 0; k < x.size(); k += 2) grid.points.push_back({x[k], x[k + 1]});
+  grid.region = integers("/mesh/region");
+  grid.regions = texts("/mesh/region", "names");
+  if (cells.size() == 1) {
+    unpack_stream(integers("/mesh/cells"), grid);
+  } else {
+    require(cells.size() == 2 && (cells[1] == 3 || cells[1] == 4), "/mesh/cells", "has an unknown shape");
+    grid.corners = integers("/mesh/cells");
+    for (hsize_t cell = 1; cell <= cells[0]; ++cell) grid.first.push_back(static_cast<int>(cell * cells[1]));
+  }
+  require(!grid.region.empty() && grid.first.size() == grid.region.size() + 1, "/mesh/region",
+          "has not as many entries as there are cells");
+  require(all_within(grid.corners, grid.points.size()), "/mesh/cells", "names a point that is not there");
+  require(all_within(grid.region, grid.regions.size()), "/mesh/region", "has a region without name");
+}
+
+std::vector<hsize_t> GridFile::shape(const std::string& dataset) const {
+  return shape_of(open(file_, dataset), dataset);
+}
+
+std::vector<double> GridFile::reals(const std::string& dataset) const {
+  const Hdf5Dataset set = open(file_, dataset);
+  std::vector<double> values(entries(shape_of(set, dataset)));
+  hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
+  return values;
+}
+
+std::vector<int> GridFile::integers(const std::string& dataset) const {
+  const Hdf5Dataset set = open(file_, dataset);
+  std::vector<int> values(entries(shape_of(set, dataset)));
+  hdf5(H5Dread(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
+  return values;
+}
+
+void GridFile::read_rows(const std::string& dataset, hsize_t rows, hsize_t width, hsize_t begin,
+                         hsize_t count, double* to) const {
+  const Hdf5Dataset set = open(file_, dataset);
+  const auto found = shape_of(set, dataset);
+  require(!found.empty() && found[0] == rows && entries(found) == rows * width, dataset,
+          "does not have one row for each cell or point");
+  std::vector<hsize_t> start(found.size(), 0), size(found);
+  start[0] = begin;
+  size[0] = count;
+  const Hdf5Space source(hdf5(H5Dget_space(set), dataset));
+  const Hdf5Space target(
+      hdf5(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), dataset));
+  if (count == 0) return;
+  hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), dataset);
+  hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, to), dataset);
+}
+
+double GridFile::number(const std::string& object, const std::string& attribute) const {
+  double value = 0;
+  const std::string what = object + "'s attribute " + attribute;
+  const Hdf5Attribute found(
+      hdf5(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), what));
+  hdf5(H5Aread(found, H5T_NATIVE_DOUBLE, &value), what);
+  return value;
+}
+
+std::vector<std::string> GridFile::texts(const std::string& object, const std::string& attribute) const {
+  const std::string what = object + "'s attribute " + attribute;
+  const Hdf5Attribute found(
+      hdf5(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), what));
+  const Hdf5Type type(hdf5(H5Aget_type(found), what));
+  const Hdf5Space space(hdf5(H5Aget_space(found), what));
+  require(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0, what,
+          "is not a text of fixed length");
+  const auto count = static_cast<std::size_t>(hdf5(H5Sget_simple_extent_npoints(space), what));
+  const std::size_t length = H5Tget_size(type);
+  std::string all(count * length, '\0');
+  hdf5(H5Aread(found, type, all.data()), what);
+  std::vector<std::string> list;
+  for (std::size_t k = 0; k < count; ++k) list.emplace_back(all.substr(k * length, length).c_str());
+  return list;
+}
+
+}  // namespace slipscale

@@ -1,0 +1,98 @@
+#include "slipscale/files/hdf5.hpp"
+
+#include <algorithm>
+
+#include "slipscale/base/error.hpp"
+
+namespace slipscale {
+namespace {
+
+/// The first entry on the way up from the cause to the call.
+herr_t take_innermost(unsigned depth, const H5E_error2_t* entry, void* text) {
+  if (depth == 0 && entry->desc) *static_cast<std::string*>(text) = entry->desc;
+  return 0;
+}
+
+Hdf5Type text_type(std::size_t length) {
+  Hdf5Type type(hdf5(H5Tcopy(H5T_C_S1), "cannot make a text type"));
+  hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "cannot size a text type");
+  hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "cannot make a text type UTF-8");
+  hdf5(H5Tset_strpad(type, H5T_STR_NULLPAD), "cannot pad a text type");
+  return type;
+}
+
+void write_value(hid_t object, const std::string& name, hid_t type, hid_t space, const void* value) {
+  const std::string what = "cannot write the attribute '" + name + "'";
+  Hdf5Attribute attribute(
+      hdf5(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), what));
+  hdf5(H5Awrite(attribute, type, value), what);
+}
+
+}  // namespace
+
+void keep_hdf5_messages() { (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+std::string hdf5_message() {
+  std::string text;
+  (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_innermost, &text);
+  // File drivers bury the system's words: "file write failed: time = …, errno = 28, error message = '…', buf
+  // = …".
+  const std::string marker = "error message = '";
+  const auto begin = text.find(marker);
+  if (begin == std::string::npos) return text.empty() ? "unknown failure" : text;
+  const auto end = text.find('\'', begin + marker.size());
+  return text.substr(begin + marker.size(), end - begin - marker.size());
+}
+
+hid_t hdf5(hid_t result, const std::string& what) {
+  if (result < 0) throw LibraryError(what + ": " + hdf5_message());
+  return result;
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& value) {
+  const Hdf5Type type = text_type(value.size());
+  const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
+  const std::string text = value.empty() ? std::string(1, '\0') : value;
+  write_value(object, name, type, scalar, text.data());
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values) {
+  std::size_t longest = 1;
+  for (const auto& value : values) longest = std::max(longest, value.size());
+  std::string texts;
+  for (const auto& value : values) texts += value + std::string(longest - value.size(), '\0');
+  const Hdf5Type type = text_type(longest);
+  const hsize_t count = values.size();
+  const Hdf5Space list(hdf5(H5Screate_simple(1, &count, nullptr), "cannot make a data space"));
+  write_value(object, name, type, list, texts.data());
+}
+
+void write_attribute(hid_t object, const std::string& name, double value) {
+  const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
+  write_value(object, name, H5T_NATIVE_DOUBLE, scalar, &value);
+}
+
+void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
+  const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
+  write_value(object, name, H5T_NATIVE_INT64, scalar, &value);
+}
+
+void describe_dataset(hid_t dataset, const std::string& units, const std::string& description) {
+  write_attribute(dataset, "units", units);
+  write_attribute(dataset, "description", description);
+}
+
+Hdf5Dataset create_dataset(hid_t file, const std::string& path, hid_t type, const std::vector<hsize_t>& shape,
+                           const std::vector<hsize_t>& largest, const std::vector<hsize_t>& chunk) {
+  const std::string what = "cannot create the dataset '" + path + "'";
+  const int rank = static_cast<int>(shape.size());
+  const Hdf5Space space(
+      hdf5(H5Screate_simple(rank, shape.data(), largest.empty() ? nullptr : largest.data()), what));
+  const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), what));
+  hdf5(H5Pset_create_intermediate_group(links, 1), what);
+  const Hdf5Properties creation(hdf5(H5Pcreate(H5P_DATASET_CREATE), what));
+  if (!chunk.empty()) hdf5(H5Pset_chunk(creation, rank, chunk.data()), what);
+  return Hdf5Dataset(hdf5(H5Dcreate2(file, path.c_str(), type, space, links, creation, H5P_DEFAULT), what));
+}
+
+}  // namespace slipscale

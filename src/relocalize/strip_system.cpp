@@ -1,0 +1,132 @@
+#include "strip_system.hpp"
+
+#include <algorithm>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/relocalize/boundary_layer.hpp"
+
+namespace slipscale {
+
+StripPoints::StripPoints(const PlaneGrid& grid, const std::vector<char>& inside)
+    : grid_(grid), free_(grid.points.size(), -1), contact_(grid.points.size(), -1) {
+  const std::vector<int> joint = joined_points(grid);
+  const Box box = bounding_box(grid);
+  const double lowest = box.lower[1] + 1e-9 * box.extent(1);
+  std::vector<char> below(grid.points.size(), 0), above(grid.points.size(), 0);  // by joint
+  for (int cell = 0; cell < grid.cells(); ++cell)
+    for (int k = grid.first[cell]; k < grid.first[cell + 1]; ++k)
+      (inside[cell] ? below : above)[joint[grid.corners[k]]] = 1;
+  std::vector<int> known(grid.points.size(), -1);  // by joint
+  for (std::size_t point = 0; point < grid.points.size(); ++point) {
+    const int j = joint[point];
+    if (!below[j] || above[j]) continue;
+    if (known[j] < 0) {
+      known[j] = static_cast<int>(free_count_++);
+      const bool touches = grid.points[point][1] <= lowest;
+      contact_of_free_.push_back(touches ? static_cast<int>(contact_count_++) : -1);
+      if (touches) free_of_contact_.push_back(known[j]);
+    }
+    free_[point] = known[j];
+    contact_[point] = contact_of_free_[known[j]];
+  }
+}
+
+bool StripPoints::touches_contact(int cell) const {
+  for (int k = 0; k < grid_.corner_count(cell); ++k)
+    if (contact_node(cell, k) >= 0) return true;
+  return false;
+}
+
+StripSystem::StripSystem(MPI_Comm comm, const PlaneGrid& grid, const StripPoints& points,
+                         const std::vector<char>& closed)
+    : comm_(comm), grid_(grid), points_(points), unknown_(points.count(), {-1, -1}) {
+  for (std::size_t node = 0; node < unknown_.size(); ++node) {
+    const int contact = points.contact_of_free()[node];
+    unknown_[node][0] = count_++;
+    if (contact < 0 || !closed[contact]) unknown_[node][1] = count_++;
+  }
+  petsc(MatCreate(comm, matrix_.put()));
+  petsc(MatSetSizes(matrix_, PETSC_DECIDE, PETSC_DECIDE, count_, count_));
+  petsc(MatSetType(matrix_, MATAIJ));
+  constexpr PetscInt row = 60;  // a node and up to thirty neighbours; more cost time, not the answer
+  petsc(MatSeqAIJSetPreallocation(matrix_, row, nullptr));
+  petsc(MatMPIAIJSetPreallocation(matrix_, row, nullptr, row, nullptr));
+  petsc(MatSetOption(matrix_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  petsc(MatSetOption(matrix_, MAT_SPD, PETSC_TRUE));
+  petsc(MatCreateVecs(matrix_, solution_.put(), force_.put()));
+  petsc(VecSetOption(force_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
+  petsc(VecScatterCreateToAll(solution_, scatter_.put(), everywhere_.put()));
+  values_.resize(static_cast<std::size_t>(count_));
+}
+
+/// −1 is skipped by PETSc.
+std::array<PetscInt, 8> StripSystem::rows(int cell) const {
+  std::array<PetscInt, 8> found{};
+  for (int k = 0; k < grid_.corner_count(cell); ++k) {
+    const int node = points_.free_node(cell, k);
+    for (int i = 0; i < 2; ++i) found[2 * k + i] = node < 0 ? -1 : unknown_[node][i];
+  }
+  return found;
+}
+
+void StripSystem::add_cell(int cell, const ElementStiffness& stiffness) {
+  const auto indices = rows(cell);
+  const auto size = static_cast<PetscInt>(stiffness.rows());
+  petsc(MatSetValues(matrix_, size, indices.data(), size, indices.data(), stiffness.data(), ADD_VALUES));
+}
+
+void StripSystem::factorise() {
+  petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+  petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+  petsc(KSPCreate(comm_, ksp_.put()));
+  petsc(KSPSetOperators(ksp_, matrix_, matrix_));
+  petsc(KSPSetType(ksp_, KSPPREONLY));
+  PC pc = nullptr;
+  petsc(KSPGetPC(ksp_, &pc));
+  petsc(PCSetType(pc, PCCHOLESKY));
+  petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  petsc(KSPSetUp(ksp_));
+}
+
+void StripSystem::clear_force() { petsc(VecSet(force_, 0)); }
+
+void StripSystem::add_force(int cell, const CellVector& force) {
+  petsc(
+      VecSetValues(force_, static_cast<PetscInt>(force.size()), rows(cell).data(), force.data(), ADD_VALUES));
+}
+
+void StripSystem::add_contact(const std::vector<Vector2>& force) {
+  PetscInt begin = 0, end = 0;
+  petsc(VecGetOwnershipRange(force_, &begin, &end));
+  for (std::size_t contact = 0; contact < force.size(); ++contact)
+    for (int i = 0; i < 2; ++i) {
+      const PetscInt row = unknown_[points_.free_of_contact()[contact]][i];
+      if (row >= begin && row < end) petsc(VecSetValue(force_, row, force[contact][i], ADD_VALUES));
+    }
+}
+
+void StripSystem::solve() {
+  petsc(VecAssemblyBegin(force_));
+  petsc(VecAssemblyEnd(force_));
+  petsc(KSPSolve(ksp_, force_, solution_));
+  KSPConvergedReason reason;
+  petsc(KSPGetConvergedReason(ksp_, &reason));
+  if (reason < 0)
+    throw LibraryError(std::string("the strip next to the contact could not be solved (KSP ") +
+                       KSPConvergedReasons[reason] + ")");
+  petsc(VecScatterBegin(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
+  petsc(VecScatterEnd(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
+  const PetscScalar* values = nullptr;
+  petsc(VecGetArrayRead(everywhere_, &values));
+  std::copy_n(values, values_.size(), values_.begin());
+  petsc(VecRestoreArrayRead(everywhere_, &values));
+}
+
+StripSystem::CellVector StripSystem::displacement(int cell) const {
+  const auto indices = rows(cell);
+  CellVector found(2 * grid_.corner_count(cell));
+  for (Eigen::Index k = 0; k < found.size(); ++k) found[k] = indices[k] < 0 ? 0 : values_[indices[k]];
+  return found;
+}
+
+}  // namespace slipscale
