@@ -1,7 +1,7 @@
 # `cmake --install build`, and `find_package(slipscale)` for programs built on the library.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS slide homogenize morphology RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS slide homogenize relocalize morphology RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS slipscale EXPORT slipscaleTargets)
 install(DIRECTORY include/slipscale ${CMAKE_CURRENT_BINARY_DIR}/include/slipscale
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -13,5 +13,19 @@ What serves one study alone lies beside that study's Snakefile.
 """
 
 import os
+import sys
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # before h5py: a running job holds its files open
+
+STARTED = ("slipscale", "slipscale.running.attempt")  # what `python3 -m` may name: the command, and what studies use
+
+
+def _module_named():
+    """The module that `python3 -m` is about to run, or None."""
+    words = getattr(sys, "orig_argv", [])
+    return words[words.index("-m") + 1] if sys.argv[:1] == ["-m"] and "-m" in words[:-1] else None
+
+
+if (_module_named() or "").startswith("slipscale.") and _module_named() not in STARTED:
+    print(f"{_module_named()} is a library, no command: slipscale -h lists the commands.", file=sys.stderr)
+    sys.exit(2)

@@ -3,8 +3,10 @@
 import h5py
 import yaml
 
+from slipscale.mistakes import Mistake
 
-class UnreadableRun(Exception):
+
+class UnreadableRun(Mistake):
     """What is missing or wrong in an output folder, in one sentence."""
 
 

@@ -1,6 +1,6 @@
 """Runs a program and writes how it ended, so that a study keeps its failures beside its results.
 
-    PYTHONPATH=runs python3 -m slipscale.running.attempt FOLDER/outcome.yaml [--after OTHER/outcome.yaml] [--limit SECONDS]
+    python3 -m slipscale.running.attempt FOLDER/outcome.yaml [--after OTHER/outcome.yaml] [--limit SECONDS]
         [--set name=value ...] -- program arguments ...
 
 outcome.yaml: `options`, what --set names; `status`, ok or failed; `reason`, the last thing said by a program that
@@ -10,7 +10,6 @@ failure is a result. An interrupted program (SIGINT, SIGTERM, SIGHUP) is none: i
 is 1.
 """
 
-import argparse
 import os
 import resource
 import shlex
@@ -21,6 +20,8 @@ import time
 from pathlib import Path
 
 import yaml
+
+from slipscale.parser import Parser
 
 INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 FAILED_BEFORE = "the run was not started"
@@ -90,7 +91,7 @@ def attempt(outcome, command, options=None, after=(), limit=None):
 
 def main(arguments=None):
     arguments = sys.argv[1:] if arguments is None else arguments
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("slipscale.running.attempt", __doc__, "python3 -m")
     parser.add_argument("outcome", type=Path, help="YAML file to write")
     parser.add_argument("--after", type=Path, nargs="*", default=[], help="outcomes that have to be ok")
     parser.add_argument("--limit", type=float, help="seconds after which the program is ended")

@@ -10,16 +10,17 @@ What else the scene and the block are made of stands in study.yaml, or in the fi
 words for snakemake: -c4 for four cores (else all), -n to see what would be run, --profile runs/profiles/slurm.
 """
 
-import argparse
 import os
 import sys
 from pathlib import Path
 
 import yaml
 
+from slipscale.mistakes import Mistake
+from slipscale.parser import Parser
 from slipscale.running.attempt import write_whole
 from slipscale.running.commands import flat
-from slipscale.running.sweep import Mistake, takes_list, values_of
+from slipscale.running.sweep import takes_list, values_of
 from slipscale.running.sweep_plan import manuals_of, plan, program_of
 
 FILE = "options_file_yaml"
@@ -94,8 +95,7 @@ def found_from_here(files):
 def main(arguments=None):
     folder, *words = sys.argv[1:] if arguments is None else arguments
     cut = words.index("--") if "--" in words else len(words)
-    parser = argparse.ArgumentParser("run.sh", description=__doc__, allow_abbrev=False,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("sweep", __doc__)
     parser.add_argument("--recipe", help="YAML file, options of morphology for the block")
     parser.add_argument("--list", help="CSV file of combinations to run, a column for each option")
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of the averages, s")
@@ -125,7 +125,3 @@ def main(arguments=None):
     if not any(word.startswith(("-c", "--cores", "--profile", "-j", "--jobs")) for word in more):
         more = ["--cores", "all", *more]
     os.execvp(snakemake[0], [*snakemake, "--rerun-incomplete", *more])
-
-
-if __name__ == "__main__":
-    sys.exit(main())
