@@ -7,11 +7,13 @@ from pathlib import Path
 
 import yaml
 
-from slipscale.running.programs import find_program, mpi_environment
+from slipscale.mistakes import Mistake
 from slipscale.run import Run
+from slipscale.running import programs
+from slipscale.running.commands import word
 
 
-class RunFailed(Exception):
+class RunFailed(Mistake):
     """What `slide` said before it stopped."""
 
 
@@ -25,21 +27,20 @@ def slide(scene, ranks=1, folder=None, program=None, **options):
 
     Progress is shown as on a terminal. Raises RunFailed with the program's own sentence when it stops.
     """
-    words = [str(program or find_program("slide"))]
+    words = [str(program or programs.program("slide"))]
     if isinstance(scene, dict):
         scene, folder = _written(scene, folder)
     words += ["-options_file_yaml", str(scene)]
     if folder:
         words += ["-output_folder", str(folder)]
     for name, value in options.items():
-        words += [f"-{name}", _word(value)]
+        words += [f"-{name}", word(value)]
     if ranks > 1:
         words = [shutil.which("mpirun") or "mpirun", "-n", str(ranks)] + words
-    done = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                            env={**os.environ, **mpi_environment(ranks)})
-    said = [line for line in done.stderr if line.strip()]
-    if done.wait() != 0:
-        raise RunFailed(_sentence(said) or f"{words[0]} ended with exit code {done.returncode}")
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, **_mpi()})
+    if done.returncode != 0:
+        raise RunFailed(_sentence(done.stderr.splitlines()) or f"{words[0]} ended with exit code {done.returncode}")
     return Run(folder or options.get("output_folder") or _folder_of(scene))
 
 
@@ -59,15 +60,16 @@ def _folder_of(scene):
     return scene.get("output_folder") or scene["output"]["folder"]
 
 
-def _word(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (list, tuple)):
-        return ",".join(map(_word, value))
-    return repr(value) if isinstance(value, float) else str(value)
-
-
 def _sentence(lines):
     """The program's own line: mpirun frames and follows it with its own."""
     own = [line.strip() for line in lines if line.startswith(("slide:", "error:"))]
     return own[0] if own else "".join(lines).strip()
+
+
+def _mpi():
+    """What Open MPI wants to be told: as root, in a container, it starts nothing unasked."""
+    wanted = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    if os.getuid() == 0:
+        wanted.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                      OMPI_MCA_btl_vader_single_copy_mechanism="none")
+    return wanted
