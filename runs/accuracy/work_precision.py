@@ -10,13 +10,12 @@ error_C11. Of repeated runs the quickest counts.
 import sys
 from pathlib import Path
 
-import yaml
-
 from slipscale.measuring.convergence import fit_power
 from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.reading import UnreadableRun
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import quickest, read_csv
 
 OPTIONS = ("element", "size", "solver", "rtol")
@@ -170,7 +169,7 @@ def main(arguments=None):
     parser.add_argument("--orientation", type=Path, help="YAML file whose entry `orientation` lists other codes")
 
     def figure(options):
-        known = yaml.safe_load(options.orientation.read_text())["orientation"] if options.orientation else []
+        known = load(options.orientation)["orientation"] if options.orientation else []
         return draw(read_csv(options.table), known)
 
     return write_picture(parser, figure, arguments)

@@ -37,6 +37,7 @@ from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
 from slipscale.parser import Parser
 from slipscale.reading import History, UnreadableRun
+from slipscale.reading.yaml_file import load
 from slipscale.running.attempt import number_or_text, write_whole
 
 LEVELS = ("scaling", "frequency", "search")
@@ -187,7 +188,7 @@ def adapted_before(folder):
     file = Path(folder) / "adapt.yaml"
     if not file.is_file():
         return folder
-    found = yaml.safe_load(file.read_text())
+    found = load(file, written=True)
     ends = [level["after"] for level in found["levels"].values() if "after" in level] or [found["nearest"] or found["before"]]
     return min(ends, key=lambda end: end["spectrum_distance"])["folder"]
 

@@ -7,7 +7,6 @@ Without --over the two options with the most values span the map, and there is a
 others. A run that failed is hatched. Exits with code 2 and one sentence when there is nothing to draw.
 """
 
-
 import numpy as np
 from matplotlib.patches import Patch
 

@@ -5,7 +5,6 @@
 Works on a run that is still going. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-
 import numpy as np
 
 from slipscale.measuring.window import MICRO, rows_in

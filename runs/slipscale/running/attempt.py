@@ -22,6 +22,7 @@ from pathlib import Path
 import yaml
 
 from slipscale.parser import Parser
+from slipscale.reading.yaml_file import load
 
 INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 FAILED_BEFORE = "the run was not started"
@@ -53,7 +54,7 @@ def run(command, log, limit=None):
 
 def number_or_text(text):
     """What a command line or a table says: an int, a float, the text, or None for nothing."""
-    for kind in (int, float):
+    for kind in (int, float) if "_" not in text else ():
         try:
             return kind(text)
         except ValueError:
@@ -78,7 +79,7 @@ def cpu_seconds():
 def attempt(outcome, command, options=None, after=(), limit=None):
     """Runs `command` and writes the outcome (a path). Returns what was written, as a dict."""
     outcome.parent.mkdir(parents=True, exist_ok=True)
-    reasons = [earlier["reason"] for earlier in (yaml.safe_load(path.read_text()) for path in after)
+    reasons = [earlier["reason"] for earlier in (load(path, written=True) for path in after)
                if earlier["status"] != "ok"]
     start, computed = time.monotonic(), cpu_seconds()
     reason = f"{FAILED_BEFORE}: {reasons[0]}" if reasons else run(command, outcome.parent / "log.txt", limit)
