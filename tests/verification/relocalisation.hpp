@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "../cell/grids.hpp"
+#include "grids.hpp"
 #include "cells_checks.hpp"
 #include "slipscale/homogenize/localisation_file.hpp"
 #include "slipscale/relocalize/localisation_reader.hpp"
