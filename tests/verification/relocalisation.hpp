@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "grids.hpp"
 #include "cells_checks.hpp"
+#include "grids.hpp"
 #include "slipscale/homogenize/localisation_file.hpp"
 #include "slipscale/relocalize/localisation_reader.hpp"
 #include "slipscale/relocalize/relocalisation.hpp"
