@@ -1,12 +1,11 @@
 #include "slipscale/homogenize/localisation_file.hpp"
 
 #include <array>
-#include <numeric>
 
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
-#include "slipscale/solid/element.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 
 namespace slipscale {
 namespace {
@@ -21,16 +20,10 @@ DatasetSlice whole_on_first(MPI_Comm comm, std::vector<hsize_t> shape) {
   return {std::move(shape), 0, rows};
 }
 
-double area(const Cells& cells, int cell) {
-  const auto parts = corner_areas(
-      {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))});
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
-}
-
 void write_tensors(SharedFile& file, const MeshImage& image, const Mesh& mesh,
                    const std::vector<Material>& materials, const CellSolution& solution) {
   write_on_cells(file, image, {"/cell/area", "m2", "area of each cell"}, {},
-                 [&](int cell, double* row) { row[0] = area(mesh.cells, cell); });
+                 [&](int cell, double* row) { row[0] = cell_area(mesh.cells.corners_of(cell)); });
   write_on_cells(
       file, image,
       {"/cell/localisation", "1",

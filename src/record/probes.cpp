@@ -12,10 +12,6 @@
 namespace slipscale {
 namespace {
 
-std::span<const Vector2> corners_of(const Cells& cells, int cell) {
-  return {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))};
-}
-
 /// The lowest number that any rank names, and the rank that named it.
 struct Claim {
   long number;
@@ -65,9 +61,10 @@ bool Probes::place_on_node(MPI_Comm comm, const Mesh& mesh, int point) {
     own_point_.push_back(point);
     double area = 0;
     for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-      const auto areas = corner_areas(corners_of(mesh.cells, cell));
-      for (int k = 0; k < mesh.cells.corner_count(cell); ++k)
-        if (mesh.cells.corner_nodes[mesh.cells.first[cell] + k] == node) {
+      const auto areas = corner_areas(mesh.cells.corners_of(cell));
+      const auto nodes = mesh.cells.nodes_of(cell);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (nodes[k] == node) {
           shares_[point].push_back({cell, areas[k]});
           area += areas[k];
         }
@@ -82,7 +79,7 @@ bool Probes::place_in_cell(MPI_Comm comm, const Mesh& mesh, int point) {
   int found = -1;
   std::array<double, 4> weights{};
   for (int cell = 0; cell < mesh.cells.size() && found < 0; ++cell)
-    if (mesh.cells.owned[cell] && shape_values_at(corners_of(mesh.cells, cell), positions_[point], weights))
+    if (mesh.cells.owned[cell] && shape_values_at(mesh.cells.corners_of(cell), positions_[point], weights))
       found = cell;
   const Claim claim = lowest_claim(comm, found < 0 ? nobody : static_cast<long>(mesh.cells.number[found]));
   if (claim.number == nobody) return false;
@@ -93,8 +90,9 @@ bool Probes::place_in_cell(MPI_Comm comm, const Mesh& mesh, int point) {
   if (claim.rank == rank_of(comm)) {
     own_point_.push_back(point);
     shares_[point].push_back({found, 1.0});
-    for (int k = 0; k < mesh.cells.corner_count(found); ++k) {
-      told.numbers[k] = mesh.nodes.number[mesh.cells.corner_nodes[mesh.cells.first[found] + k]];
+    const auto nodes = mesh.cells.nodes_of(found);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      told.numbers[k] = mesh.nodes.number[nodes[k]];
       told.weights[k] = weights[k];
     }
   }
