@@ -35,7 +35,7 @@ Reading scene_r_at(double spacing, double step, double time, Partitioner partiti
 void compare(const std::string& quantity, double found, double expected) {
   EXPECT_NEAR(found / expected, 1, 1e-6) << quantity;
   report({"Scene R before saturation", quantity, format("{:.10g}, relative +- 1e-6", expected),
-          format("{:.10g}", found), "", "separate serial prototype"});
+          format("{:.10g}", found), "", "unpublished second program"});
 }
 
 void compare(const std::string& when, const Reading& found, const Reading& expected) {

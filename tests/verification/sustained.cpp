@@ -14,7 +14,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-constexpr const char* prototype = "separate serial prototype";
+constexpr const char* prototype = "unpublished second program";
 constexpr const char* slip_separated = "Sustained instability S1, slip-separated";
 constexpr const char* stick_slip = "Sustained instability S2, stick-slip-separated";
 
@@ -91,7 +91,7 @@ void expect_little_scatter(const char* topic, Strip strip) {
 
 }  // namespace
 
-/// Against a separate serial prototype: averages over t in [200, 400]; every node, every step.
+/// Against a second program of the authors (README.md: what that is worth): averages over t in [200, 400]; every node, every step.
 TEST(Sustained, SlipSeparatedRegime) {
   const auto means = on_three_meshes(s1());
   expect(slip_separated, "mean friction T/N, nx = 32 / 64 / 128", {0.4444, 0.4468, 0.4469},
