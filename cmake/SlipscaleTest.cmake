@@ -25,24 +25,19 @@ function(slipscale_test name)
   endforeach()
 endfunction()
 
-# slipscale_python_test(<name> FILE test.py | FOLDER tests [TOP folder] LABELS programs [PROCESSORS 2] [TIMEOUT seconds]
-#                       [ENVIRONMENT A=b …])
+# slipscale_python_test(<name> FILE test.py LABELS programs [PROCESSORS 2] [TIMEOUT seconds] [ENVIRONMENT A=b …])
 #
-# The unittest cases of a file, or those that discovery finds in a folder whose modules are named from TOP. No case at
-# all is a failure.
+# The unittest cases of a file; no case at all is a failure.
 function(slipscale_python_test name)
-  cmake_parse_arguments(arg "" "FILE;FOLDER;TOP;PROCESSORS;TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "" "FILE;PROCESSORS;TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 600)
   endif()
   if(NOT arg_PROCESSORS)
     set(arg_PROCESSORS 1)
   endif()
-  if(arg_FILE)
-    cmake_path(ABSOLUTE_PATH arg_FILE)
-  endif()
   add_test(NAME ${name} COMMAND ${SLIPSCALE_PYTHON} -B ${PROJECT_SOURCE_DIR}/tests/support/run_python.py
-                                ${arg_FILE} ${arg_FOLDER} ${arg_TOP})
+                                ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FILE})
   set_tests_properties(${name} PROPERTIES
     LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS} TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "${SLIPSCALE_MPI_ENVIRONMENT};${arg_ENVIRONMENT}")
