@@ -25,11 +25,12 @@ function(slipscale_test name)
   endforeach()
 endfunction()
 
-# slipscale_python_test(<name> FILE test.py LABELS programs [PROCESSORS 2] [TIMEOUT seconds] [ENVIRONMENT A=b …])
+# slipscale_python_test(<name> FILE test.py [CASES Case Case.test_one …] LABELS programs [PROCESSORS 2]
+#                       [TIMEOUT seconds] [ENVIRONMENT A=b …])
 #
-# The unittest cases of a file; no case at all is a failure.
+# The unittest cases of a file, or those named; no case at all is a failure.
 function(slipscale_python_test name)
-  cmake_parse_arguments(arg "" "FILE;PROCESSORS;TIMEOUT" "LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "" "FILE;PROCESSORS;TIMEOUT" "CASES;LABELS;ENVIRONMENT" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 600)
   endif()
@@ -37,7 +38,7 @@ function(slipscale_python_test name)
     set(arg_PROCESSORS 1)
   endif()
   add_test(NAME ${name} COMMAND ${SLIPSCALE_PYTHON} -B ${PROJECT_SOURCE_DIR}/tests/support/run_python.py
-                                ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FILE})
+                                ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FILE} ${arg_CASES})
   set_tests_properties(${name} PROPERTIES
     LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS} TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "${SLIPSCALE_MPI_ENVIRONMENT};${arg_ENVIRONMENT}")

@@ -1,6 +1,6 @@
-"""Runs the unittest cases of one file.
+"""Runs the unittest cases of one file, or those named.
 
-    python3 run_python.py test_file.py
+    python3 run_python.py test_file.py [Case | Case.test_one …]
 
 Exit code 0 when at least one case ran and none failed: a file without cases, and one whose cases are all skipped, are
 failures, which unittest itself (before Python 3.12) takes for success.
@@ -13,10 +13,11 @@ from pathlib import Path
 
 
 def main():
-    if len(sys.argv) != 2 or not (file := Path(sys.argv[1]).resolve()).is_file():
+    if len(sys.argv) < 2 or not (file := Path(sys.argv[1]).resolve()).is_file():
         sys.exit(__doc__)
     sys.path.insert(0, str(file.parent))  # where the modules stand that it imports
-    suite = unittest.TestLoader().loadTestsFromModule(importlib.import_module(file.stem))
+    module, names, loader = importlib.import_module(file.stem), sys.argv[2:], unittest.TestLoader()
+    suite = loader.loadTestsFromNames(names, module) if names else loader.loadTestsFromModule(module)
     result = unittest.TextTestRunner(stream=sys.stdout).run(suite)
     if result.testsRun == len(result.skipped):
         print(f"{file}: no test was run", file=sys.stderr)
