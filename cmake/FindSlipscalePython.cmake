@@ -14,6 +14,9 @@ find_program(SLIPSCALE_PYTHON NAMES python3 python PATHS /usr/bin VALIDATOR slip
              DOC "Python 3.11 or newer with numpy, h5py, matplotlib and yaml")
 
 include(FindPackageHandleStandardArgs)
+string(CONCAT slipscale_python_advice
+  "no python3 of version 3.11 or newer in the path imports ${slipscale_python_modules}: install them "
+  "(cmake/install-dependencies.sh) or give -D SLIPSCALE_PYTHON=/path/to/python3")
 find_package_handle_standard_args(SlipscalePython REQUIRED_VARS SLIPSCALE_PYTHON
-  REASON_FAILURE_MESSAGE "no python3 of version 3.11 or newer in the path imports ${slipscale_python_modules}; install them (cmake/install-dependencies.sh) or give -D SLIPSCALE_PYTHON=/path/to/python3")
+  REASON_FAILURE_MESSAGE "${slipscale_python_advice}")
 mark_as_advanced(SLIPSCALE_PYTHON)

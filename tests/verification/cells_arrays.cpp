@@ -27,7 +27,8 @@ struct Discs {
   std::vector<Phases> phases;
 };
 
-/// Moduli by complex potentials: disc_arrays.py beside this file prints them, its test holds them to these digits.
+/// Moduli by complex potentials: disc_arrays.py beside this file prints them, its test holds them to these
+/// digits.
 const std::vector<Discs> arrays = {{"Square array of discs, f .2",
                                     Arrangement::square,
                                     0.2,

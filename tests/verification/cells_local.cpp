@@ -66,10 +66,10 @@ using Refinement = std::array<DiscCell, 3>;
 
 double order(const std::array<double, 3>& errors) { return 0.5 * std::log2(errors[0] / errors[2]); }
 
-/// Against the exact fields (disc_arrays.py). The mean of a cell is off by O(h) from the strain at a point of it; a
-/// polynomial of degree 2 through the means within 4h of the centre is off by O(h²), as the discretisation
-/// is. The bound is the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and a quarter of it
-/// at 128.
+/// Against the exact fields (disc_arrays.py). The mean of a cell is off by O(h) from the strain at a point of
+/// it; a polynomial of degree 2 through the means within 4h of the centre is off by O(h²), as the
+/// discretisation is. The bound is the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and
+/// a quarter of it at 128.
 void check_centre(const Refinement& cells, const std::string& elements) {
   constexpr double bound = 5e-4;
   const Vector2 centre{0.5, 0.5};

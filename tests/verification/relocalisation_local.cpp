@@ -54,10 +54,10 @@ double order(const std::array<double, 3>& errors) { return 0.5 * std::log2(error
 
 }  // namespace
 
-/// Against the exact fields (disc_arrays.py): E_xx = 1 and E_xy = 1 (γ = 2). Bounds and orders are those of the
-/// localisation tensors themselves in cells_local.cpp: second order at the centre, .05 % at 64 elements and a
-/// quarter of it at 128; first order at the interface, where the mean over a cell is off by h/r times the
-/// gradient 2.8 GPa a radius.
+/// Against the exact fields (disc_arrays.py): E_xx = 1 and E_xy = 1 (γ = 2). Bounds and orders are those of
+/// the localisation tensors themselves in cells_local.cpp: second order at the centre, .05 % at 64 elements
+/// and a quarter of it at 128; first order at the interface, where the mean over a cell is off by h/r times
+/// the gradient 2.8 GPa a radius.
 TEST(Relocalisation, HasTheReferenceValuesInADisc) {
   std::array<double, 3> centre_errors{}, interface_errors{};
   Eigen::Vector3d middle, edge;
