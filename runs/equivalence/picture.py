@@ -1,6 +1,6 @@
 """Several morphologies of a composite and their homogenised blocks in one picture: portraits, spectra, shares, verdict.
 
-    PYTHONPATH=runs python3 -m equivalence.picture picture.png --composites FOLDER... --homogenised FOLDER...
+    python3 -m equivalence.picture picture.png --composites FOLDER... --homogenised FOLDER...
         --window 250e-6 400e-6 [--point 0]
 
 The k-th homogenised block is that of the k-th morphology, and is drawn with it. The last panel has every distance over
@@ -8,7 +8,6 @@ the largest that the scatter of the morphologies allows (`equivalence.verdict`):
 near to the morphologies as they are to each other.
 """
 
-import argparse
 import sys
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from equivalence.verdict import SCALARS, judge, read_run, verdict
 from slipscale.measuring.regime import HIGHEST
 from slipscale.measuring.window import MICRO, in_words
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.overlay import COLOURS
@@ -108,7 +108,7 @@ def draw(options):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("equivalence.picture", __doc__, "python3 -m")
     parser.add_argument("--composites", nargs="+", required=True, help="output folders of `slide`, two at least")
     parser.add_argument("--homogenised", nargs="+", required=True, help="output folders of `slide`")
     parser.add_argument("--window", nargs=2, type=float, required=True, metavar=("FROM", "TO"), help="s")

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 namespace {
 
@@ -42,9 +44,7 @@ void petsc(PetscErrorCode code, std::source_location where) {
 }
 
 void throw_together(MPI_Comm comm, const std::string& fault) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
+  const int rank = rank_of(comm), size = ranks_of(comm);
   int speaker = fault.empty() ? size : rank;
   MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
   if (speaker == size) return;

@@ -6,15 +6,10 @@
 #include <filesystem>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 
 namespace slipscale {
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 /// What is wrong with the folder, once made ready; empty when nothing is.
 std::string prepare(const std::string& folder, const std::vector<std::string>& replaced) {
@@ -57,13 +52,13 @@ void replace_text_file(const std::string& path, const std::string& text) {
 
 OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced)
     : comm_(comm), path_(folder) {
-  throw_together(comm, rank_of(comm) == 0 ? prepare(folder, replaced) : "");
+  throw_together(comm, is_root(comm) ? prepare(folder, replaced) : "");
 }
 
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {
   std::string fault;
   try {
-    if (rank_of(comm_) == 0) replace_text_file(path(file), text);
+    if (is_root(comm_)) replace_text_file(path(file), text);
   } catch (const LibraryError& error) {
     fault = std::string(error.what()) + "; see that -output_folder is writable and its disk has room";
   }

@@ -8,6 +8,7 @@
 
 #include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 
 namespace slipscale {
 namespace {
@@ -53,7 +54,7 @@ hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIV
 SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
     : comm_(comm), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
-  MPI_Comm_rank(comm, &rank_);
+  rank_ = rank_of(comm);
   write_together(comm_, path_, [&] {
     const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "preparing"));
     hdf5(H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL), "preparing");

@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
 #include "slipscale/solid/element.hpp"
@@ -16,9 +17,7 @@ constexpr std::array<const char*, load_cases> strain_names{"xx", "yy", "xy"};
 
 /// What rank 0 alone writes.
 DatasetSlice whole_on_first(MPI_Comm comm, std::vector<hsize_t> shape) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  const hsize_t rows = rank == 0 ? shape[0] : 0;
+  const hsize_t rows = is_root(comm) ? shape[0] : 0;
   return {std::move(shape), 0, rows};
 }
 

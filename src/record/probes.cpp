@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/element.hpp"
@@ -15,19 +16,13 @@ std::span<const Vector2> corners_of(const Cells& cells, int cell) {
   return {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))};
 }
 
-int rank_in(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
-
 /// The lowest number that any rank names, and the rank that named it.
 struct Claim {
   long number;
   int rank;
 };
 Claim lowest_claim(MPI_Comm comm, long mine) {
-  Claim claim{mine, rank_in(comm)};
+  Claim claim{mine, rank_of(comm)};
   MPI_Allreduce(MPI_IN_PLACE, &claim, 1, MPI_LONG_INT, MPI_MINLOC, comm);
   return claim;
 }
@@ -65,7 +60,7 @@ bool Probes::place_on_node(MPI_Comm comm, const Mesh& mesh, int point) {
   const Claim claim = lowest_claim(comm, node < 0 ? nobody : static_cast<long>(mesh.nodes.number[node]));
   if (claim.number == nobody) return false;
   corners_.push_back({point, static_cast<PetscInt>(claim.number), 1.0});
-  if (claim.rank == rank_in(comm)) {
+  if (claim.rank == rank_of(comm)) {
     positions_[point] = mesh.nodes.position[node];
     own_point_.push_back(point);
     double area = 0;
@@ -95,7 +90,7 @@ bool Probes::place_in_cell(MPI_Comm comm, const Mesh& mesh, int point) {
     long numbers[4];
     double weights[4];
   } told{{-1, -1, -1, -1}, {}};
-  if (claim.rank == rank_in(comm)) {
+  if (claim.rank == rank_of(comm)) {
     own_point_.push_back(point);
     shares_[point].push_back({found, 1.0});
     for (int k = 0; k < mesh.cells.corner_count(found); ++k) {

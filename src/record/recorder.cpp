@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/solid/mass.hpp"
 #include "summary.hpp"
 
 namespace slipscale {
 namespace {
-
-bool is_root(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank == 0;
-}
 
 /// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
 /// it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
 #include "slipscale/files/yaml.hpp"
@@ -12,12 +13,6 @@
 
 namespace slipscale {
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 /// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness,
 /// which is timed here (bulk arrays, damping and boundary nodes make up the rest).
@@ -65,8 +60,7 @@ std::string Recorder::forecast() const {
 }
 
 void Recorder::write_run(const Options& options) const {
-  int ranks = 1;
-  MPI_Comm_size(body_.comm(), &ranks);
+  const int ranks = ranks_of(body_.comm());
   const Model& model = body_.model();
   const auto facts = [&](Yaml& yaml) {
     const Mesh& mesh = model.mesh;

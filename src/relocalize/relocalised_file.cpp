@@ -1,5 +1,6 @@
 #include "slipscale/relocalize/relocalised_file.hpp"
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
@@ -46,9 +47,7 @@ struct RelocalisedFile::File {
 
   /// What every rank knows and rank 0 writes.
   void add(const DatasetDescription& about, std::vector<hsize_t> shape, const double* values) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const hsize_t rows = rank == 0 ? shape[0] : 0;
+    const hsize_t rows = is_root(comm) ? shape[0] : 0;
     data.write(about, {std::move(shape), 0, rows}, H5T_NATIVE_DOUBLE, values);
   }
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from PIL import Image
 
-from slipscale.reading import UnreadableRun
+from slipscale.mistakes import Mistake
 
 PREFIXES = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
 
@@ -74,7 +74,7 @@ def write_picture(parser, draw, arguments=None):
     plt.rcParams.update({"font.size": 11, "axes.titlesize": 11.5})
     try:
         draw(options).savefig(options.picture, dpi=120)
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
+    except (Mistake, OSError) as error:
+        print(f"{parser.prog}: {error}", file=sys.stderr)
         return 2
     return 0

@@ -1,16 +1,14 @@
 """One run at a glance: phase portrait, friction and its spectrum, contact map, stress, energy.
 
-    PYTHONPATH=runs python3 -m slipscale.pictures.picture out/first picture.png [--window 2.5e-4 4e-4] [--point 0]
+    slipscale picture out/first picture.png [--window 2.5e-4 4e-4] [--point 0]
 
 Works on a run that is still going. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-import argparse
-import sys
-
 import numpy as np
 
 from slipscale.measuring.window import MICRO, rows_in
+from slipscale.parser import Parser
 from slipscale.pictures import panels
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
@@ -86,13 +84,9 @@ def headline(folder, history, summary, boundary, window, dominant):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("picture", __doc__)
     parser.add_argument("folder", help="output folder of a slide run")
     parser.add_argument("--window", nargs=2, type=float, metavar=("BEGIN", "END"),
                         help="times [s] for means and spectra (default: the last three eighths of the run)")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portrait (default 0)")
     return write_picture(parser, lambda options: draw(options.folder, options.window, options.point), arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

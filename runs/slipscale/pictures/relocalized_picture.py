@@ -1,20 +1,19 @@
 """Relocalised against heterogeneous stress: four maps, and histories in matrix and inclusion.
 
-    PYTHONPATH=runs /usr/bin/python3 -m slipscale.pictures.relocalized_picture REFERENCE RELOCALISED HOMOGENEOUS out.png
+    slipscale relocalized-picture REFERENCE RELOCALISED HOMOGENEOUS out.png
         [--component yy] [--time 4e-5 | --statistic mean]
 
 The folders are those of the heterogeneous `slide` run, of `relocalize` and of the homogeneous `slide` run. Everything
 is compared at the cells of the heterogeneous run. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-import argparse
-import sys
 from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 
 from slipscale.measuring.window import MICRO
+from slipscale.parser import Parser
 from slipscale.pictures.drawing import colours_for, draw_cells, length_unit, plt, write_picture
 from slipscale.pictures.local_history import (MEGA, cells_in, heterogeneous_history, history_panel, in_digits,
                                               relative_error)
@@ -143,7 +142,7 @@ def draw(reference, relocalised, homogeneous, component="yy", time=None, statist
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("relocalized-picture", __doc__)
     parser.add_argument("reference", help="output folder of the heterogeneous slide run")
     parser.add_argument("relocalised", help="output folder of relocalize")
     parser.add_argument("homogeneous", help="output folder of the homogeneous slide run")
@@ -153,7 +152,3 @@ def main(arguments=None):
     what.add_argument("--statistic", choices=STATISTICS, help="a statistic over time in place of a frame")
     return write_picture(parser, lambda options: draw(options.reference, options.relocalised, options.homogeneous,
                                                       options.component, options.time, options.statistic), arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
