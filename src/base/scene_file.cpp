@@ -67,13 +67,13 @@ struct Watch {
 PetscErrorCode note_option(const char name[], const char value[], void*) {
   (void)value;
   origins[name] = reading;
-  if (!watch.active || !watch.fault.empty()) return 0;
+  if (!watch.active || !watch.fault.empty()) return PetscErrorCode{};
   const std::string folded = spelling::fold(name);
   if (++watch.times[folded] > 1 && !watch.merges)
     watch.fault = std::string(name) + " is given twice (keys join with _, capitals do not count); keep one";
   if (names::petsc_system(folded) || folded == "help")
     watch.fault = std::string(name) + " is read when PETSc starts; give it on the command line, as -" + name;
-  return 0;
+  return PetscErrorCode{};  // success: an enumerator from PETSc 3.19 on
 }
 
 /// From now on, what PETSc's database is told comes from `place`, which is later than all before.

@@ -101,7 +101,7 @@ PetscErrorCode CellSystem::residual(Vec u, Vec out) {
     if (held_[k]) force[k] = 0;
   PetscCall(VecRestoreArrayWrite(out, &force));
   PetscCall(VecRestoreArrayRead(local_, &values));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 PetscErrorCode CellSystem::jacobian(Mat matrix) const {
@@ -126,7 +126,7 @@ PetscErrorCode CellSystem::jacobian(Mat matrix) const {
     if (held_[k]) rows.push_back(2 * offset_ + static_cast<PetscInt>(k));
   PetscCall(
       MatZeroRowsColumns(matrix, static_cast<PetscInt>(rows.size()), rows.data(), scale_, nullptr, nullptr));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 OwnedMatNullSpace CellSystem::rigid_motions() const {
