@@ -66,20 +66,22 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       choice_(checked(body, choice)),
       time_(time),
       last_(time.count),
-      history_every_(choice.history_every),
+      history_every_(choice.history.steps(time.step, 1)),
       has_contact_(body.scene().surface.has_value()),
-      contact_every_(choice.contact_every ? *choice.contact_every : std::max(1L, time.count / 1000)),
+      contact_every_(choice.contact.steps(time.step, std::max(1L, time.count / 1000))),
+      fields_every_(choice.fields.given() ? std::optional(choice.fields.steps(time.step, 1)) : std::nullopt),
       field_steps_(steps_of(choice.fields_times, time)),
       window_(window_of(choice, time)),
       observer_(body),
       probes_(body.comm(), body.model(), choice.points),
+      force_(body, history_every_ > 1 ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder,
               {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf",
                "statistics.h5", "statistics.xdmf"}),
       compliance_(compliances(body.model().materials)),
       progress_(choice.progress, 0, static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
-  if (choice.fields_every || !field_steps_.empty())
+  if (fields_every_ || !field_steps_.empty())
     fields_ = std::make_unique<FieldsFile>(body.comm(),
                                            MeshImage(body.comm(), body.model().mesh, choice.fields_box),
                                            folder_.path(), choice.quantities);
@@ -87,18 +89,21 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
     statistics_ = std::make_unique<StressStatistics>(body.comm(), body.model().mesh, *window_,
                                                      choice.statistics->quantile);
   if (is_root(body.comm())) {
-    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions());
-    if (has_contact_) contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_);
+    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions(),
+                                             rows(history_every_));
+    if (has_contact_)
+      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_));
   }
   share_faults();
 }
 
 bool Recorder::fields_due(long n) const {
-  if (choice_.fields_every) return n % *choice_.fields_every == 0 || n == last_;
+  if (fields_every_) return n % *fields_every_ == 0 || n == last_;
   return std::binary_search(field_steps_.begin(), field_steps_.end(), n);
 }
 
 void Recorder::after_step(long n) {
+  force_.add(n);
   if (due(n)) observe(n);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
