@@ -2,8 +2,10 @@
 
 #include <chrono>
 
+#include "commit.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/log.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/files/output_folder.hpp"
@@ -77,7 +79,7 @@ double peak_memory() {
 void measure_costs(MPI_Comm comm, std::chrono::steady_clock::time_point start, Homogenised& found) {
   found.memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &found.memory, 1, MPI_DOUBLE, MPI_SUM, comm);
-  MPI_Comm_size(comm, &found.ranks);
+  found.ranks = ranks_of(comm);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -113,8 +115,7 @@ void homogenize(Options& options) {
   regions.push_back("all");
   options.know_names("region", regions);
   const std::vector<Material> materials = read_materials(options, mesh.region_names());
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
 
   Homogenised found = solve(comm, choice, mesh, materials, options);
 
@@ -134,5 +135,5 @@ int main(int argc, char** argv) {
       {"homogenize",
        "Effective stiffness and localisation tensors of a periodic cell or a whole block in plane "
        "strain, from three static load cases by SNES and KSP (prefix -cell_).",
-       mesh_schema() + material_schema() + cell_schema(), homogenize});
+       mesh_schema() + material_schema() + cell_schema(), homogenize, commit});
 }

@@ -2,7 +2,9 @@
 // whole when it is passed on in binary form. The rest of slipscale does not link it.
 #include <filesystem>
 
+#include "commit.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/files/output_folder.hpp"
@@ -57,14 +59,11 @@ void make(const Recipe& recipe, const Options& options) {
 void morphology(Options& options) {
   const Recipe recipe = read_recipe(options);
   (void)options.text("output_folder");
-  options.refuse_unread();
+  end_reading(options);
   options.refuse_unknown();
-  for (const std::string& note : options.notes()) print(note + "\n");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   std::string fault;
   try {
-    if (rank == 0) make(recipe, options);
+    if (is_root(PETSC_COMM_WORLD)) make(recipe, options);
   } catch (const UserError& error) {
     fault = error.what();
   }
@@ -79,5 +78,8 @@ int main(int argc, char** argv) {
       {"morphology",
        "Draws a composite from a recipe and meshes it: inclusions at random or in arrays, laminates, "
        "pictures of real composites. Writes MSH 4.1 with named regions and sides.",
-       recipe_schema(), morphology});
+       recipe_schema(),
+       morphology,
+       commit,
+       {"gmsh " + GmshModel::version()}});
 }

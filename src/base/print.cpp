@@ -8,6 +8,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 namespace {
 
@@ -31,8 +33,7 @@ bool takes_prefix(const std::string& unit) {
 }  // namespace
 
 void print(const std::string& text) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD == MPI_COMM_NULL ? MPI_COMM_WORLD : PETSC_COMM_WORLD, &rank);
+  const int rank = rank_of(PETSC_COMM_WORLD == MPI_COMM_NULL ? MPI_COMM_WORLD : PETSC_COMM_WORLD);
   if (rank != 0) return;
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);

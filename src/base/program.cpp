@@ -1,6 +1,9 @@
 #include "slipscale/base/program.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,17 +12,13 @@
 #include "command_line.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
 #include "slipscale/version.hpp"
 
 namespace slipscale {
 namespace {
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
 
 void complain(const std::string& program, std::string sentence) {
   std::replace(sentence.begin(), sentence.end(), '\n', ' ');
@@ -30,7 +29,7 @@ void complain(const std::string& program, std::string sentence) {
 
 /// Other ranks may be waiting in a collective call that this one will never join, so all are ended.
 [[noreturn]] void abort_all(const std::string& program, const std::string& what) {
-  complain(program, "failed on rank " + std::to_string(rank_of_world()) + ": " + what);
+  complain(program, "failed on rank " + std::to_string(rank_of(MPI_COMM_WORLD)) + ": " + what);
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();
 }
@@ -41,10 +40,10 @@ int guarded(const std::string& program, const std::function<void()>& work) {
     work();
     return 0;
   } catch (const UserError& error) {
-    if (rank_of_world() == 0) complain(program, error.what());
+    if (is_root(MPI_COMM_WORLD)) complain(program, error.what());
     return 2;
   } catch (const RunError& error) {
-    if (rank_of_world() == 0) complain(program, error.what());
+    if (is_root(MPI_COMM_WORLD)) complain(program, error.what());
     return 1;
   } catch (const std::bad_alloc&) {
     abort_all(program, "out of memory; use more ranks or a coarser mesh");
@@ -88,9 +87,34 @@ int run_in_petsc(const Program& program, CommandLine line, const std::vector<std
   return code;
 }
 
-std::string version_line(const std::string& program) {
-  return format("{} {}, PETSc {}.{}.{}\n", program, version, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
-                PETSC_VERSION_SUBMINOR);
+/// "Open MPI v4.1.4, package: …" up to the comma.
+std::string mpi_version() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string whole(text.data(), static_cast<std::size_t>(length));
+  return whole.substr(0, whole.find_first_of(",\n"));
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return format("HDF5 {}.{}.{}", major, minor, release);
+}
+
+std::string petsc_version() {
+  PetscInt major = 0, minor = 0, patch = 0, is_release = 0;
+  petsc(PetscGetVersionNumber(&major, &minor, &patch, &is_release));
+  return format("PETSc {}.{}.{}", major, minor, patch);
+}
+
+std::string version_line(const Program& program) {
+  std::string line = program.name + " " + version;
+  if (!program.commit.empty()) line += " (commit " + program.commit + ")";
+  std::vector<std::string> libraries{petsc_version(), mpi_version(), hdf5_version()};
+  libraries.insert(libraries.end(), program.libraries.begin(), program.libraries.end());
+  for (const std::string& library : libraries) line += ", " + library;
+  return line + "\n";
 }
 
 int answer(int argc, char** argv, const Program& program) {
@@ -100,7 +124,7 @@ int answer(int argc, char** argv, const Program& program) {
     return 0;
   }
   if (line.version) {
-    print(version_line(program.name));
+    print(version_line(program));
     return 0;
   }
   std::vector<std::string> scenes;
@@ -112,7 +136,13 @@ int answer(int argc, char** argv, const Program& program) {
 
 }  // namespace
 
+void end_reading(const Options& options) {
+  options.refuse_unread();
+  for (const std::string& note : options.notes()) print(note + "\n");
+}
+
 int run_program(int argc, char** argv, const Program& program) {
+  set_program(program.name, program.commit);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   int code = 0;

@@ -13,6 +13,7 @@
 
 #include "names.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "spelling.hpp"
 
@@ -96,10 +97,8 @@ std::string explained(const std::string& message) {
 }  // namespace
 
 std::string read_on_all(const std::string& option, const std::string& file) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   std::string text, fault;
-  if (rank == 0) {
+  if (is_root(MPI_COMM_WORLD)) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream content;

@@ -88,6 +88,10 @@ void SeriesFile::constant(const std::string& path, const double* values, const s
   constants_.push_back({path, shape, units, description, {values, values + count}});
 }
 
+void SeriesFile::about(const std::string& name, const std::string& text) {
+  guarded("", [&] { write_attribute(file_, name, text); });
+}
+
 void SeriesFile::write_constants() {
   for (const Constant& each : constants_) {
     const Hdf5Dataset dataset = create_dataset(file_, each.path, H5T_IEEE_F64LE, each.shape);

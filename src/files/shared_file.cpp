@@ -149,6 +149,33 @@ void SharedFile::append(const std::string& series, double value) {
   });
 }
 
+void SharedFile::write_view(const DatasetDescription& about, const DatasetView& view) {
+  on_root([&] {
+    const std::string& what = about.path;
+    const int rank = static_cast<int>(view.shape.size());
+    const Hdf5Properties creation(hdf5(H5Pcreate(H5P_DATASET_CREATE), what));
+    for (const DatasetView::Entry& entry : view.entries) {
+      const Hdf5Space target(hdf5(H5Screate_simple(rank, view.shape.data(), nullptr), what));
+      std::vector<hsize_t> start(view.shape.size(), 0), size(view.shape.size(), 1);
+      size[0] = view.shape[0];
+      std::size_t rest = entry.to;
+      for (std::size_t d = start.size(); d-- > 1; rest /= view.shape[d]) start[d] = rest % view.shape[d];
+      hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
+      const hsize_t columns[] = {view.shape[0], entry.width}, first[] = {0, entry.column}, one[] = {view.shape[0], 1};
+      const int dimensions = entry.width > 0 ? 2 : 1;
+      const Hdf5Space source(hdf5(H5Screate_simple(dimensions, columns, nullptr), what));
+      hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, first, nullptr, one, nullptr), what);
+      hdf5(H5Pset_virtual(creation, target, ".", entry.from.c_str(), source), what);
+    }
+    const Hdf5Space space(hdf5(H5Screate_simple(rank, view.shape.data(), nullptr), what));
+    const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), what));
+    hdf5(H5Pset_create_intermediate_group(links, 1), what);
+    const Hdf5Dataset dataset(
+        hdf5(H5Dcreate2(file_, what.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), what));
+    describe_dataset(dataset, about.units, about.text);
+  });
+}
+
 void SharedFile::link(const std::string& from, const std::string& to) {
   on_root([&] {
     const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), to));

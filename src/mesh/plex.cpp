@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
@@ -141,9 +142,7 @@ std::vector<PetscInt> edges_of(DM dm, const std::vector<CellSide>& sides) {
 
 PlainMesh read_by_petsc(MPI_Comm comm, const MeshSource& source, const std::vector<Region>& regions,
                         const std::vector<Boundary>& boundaries) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
+  const int rank = rank_of(comm), ranks = ranks_of(comm);
   // PETSc parses the file on rank 0 and would leave the other ranks waiting when it fails there; so the file
   // is first read by rank 0 alone.
   std::string fault;
@@ -163,8 +162,7 @@ PlainMesh read_by_petsc(MPI_Comm comm, const MeshSource& source, const std::vect
 
 PlainMesh refine(MPI_Comm comm, const PlainMesh& mesh, int times, const std::vector<Region>& regions,
                  const std::vector<Boundary>& boundaries) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
+  const int rank = rank_of(comm);
   OwnedDM dm = plex_of(comm, mesh, true);
   for (std::size_t r = 0; r < regions.size(); ++r)
     mark(dm, regions[r].name, regions[r].tag, rank == 0 ? mesh.region_cells[r] : std::vector<PetscInt>{});

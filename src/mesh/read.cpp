@@ -1,6 +1,7 @@
 #include "slipscale/mesh/read.hpp"
 
 #include "gmsh_file.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale {
@@ -30,11 +31,9 @@ void broadcast(MPI_Comm comm, GmshFile& file) {
 }
 
 GmshFile read_file(MPI_Comm comm, const std::string& path) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
   GmshFile file;
   std::string fault;
-  if (rank == 0) {
+  if (is_root(comm)) {
     file = mesh_stages::read_gmsh(path, fault);
     if (fault.empty() && file.version < 4 && file.has_periodic_section)
       fault = "mesh '" + path +

@@ -1,4 +1,5 @@
 #include "plex.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
@@ -24,8 +25,7 @@ void tell_all(MPI_Comm comm, Whole& whole) {
 }  // namespace
 
 Whole load_whole(MPI_Comm comm, const MeshSource& source, GmshFile&& file) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
+  const int rank = rank_of(comm);
   Whole whole;
   for (const auto& entry : file.names) {
     if (entry.dimension == 2) whole.regions.push_back({entry.name, entry.tag});

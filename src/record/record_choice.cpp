@@ -115,7 +115,7 @@ Schema record_schema() {
        "time between them, in place of fields_every; rounded to whole steps"},
       {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
       {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
-       "what a frame holds: some of u,v,stress,strain"},
+       "what a frame holds: some of u,v,stress,strain,von_mises,principal"},
       {"fields_box", Kind::reals, "m", absent, range::any,
        "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
       {"statistics_from", Kind::real, "s", absent, range::non_negative,

@@ -37,10 +37,6 @@ double memory_of_all_ranks(MPI_Comm comm) {
   return memory;
 }
 
-std::string hexadecimal(std::uint64_t value) {
-  return format("{:016x}", static_cast<unsigned long long>(value));
-}
-
 }  // namespace
 
 std::string Recorder::forecast() const {
@@ -70,13 +66,12 @@ std::string Recorder::cadences() const {
 }
 
 void Recorder::write_run(const Options& options) const {
-  int ranks = 1;
-  MPI_Comm_size(body_.comm(), &ranks);
+  const int ranks = ranks_of(body_.comm());
   const Model& model = body_.model();
   const auto facts = [&](Yaml& yaml) {
     const Mesh& mesh = model.mesh;
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
-    yaml.text("mesh_checksum", "fnv1a:" + hexadecimal(mesh.checksum), "of the mesh file");
+    yaml.text("mesh_checksum", checksum_text(mesh.checksum), "of the mesh file");
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
     yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m")
         .number("block_height", mesh.upper[1] - mesh.lower[1], "m");

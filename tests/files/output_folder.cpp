@@ -9,6 +9,7 @@
 
 #include "block_mesh.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 using testing_support::scratch;
@@ -16,14 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool first_rank() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank == 0;
-}
-
 void on_first_rank(const auto& action) {
-  if (first_rank()) action();
+  if (is_root(PETSC_COMM_WORLD)) action();
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
@@ -48,7 +43,7 @@ TEST(OutputFolder, IsCreatedWithTheFoldersAboveIt) {
   const OutputFolder folder(PETSC_COMM_WORLD, scratch("a") + "/b/c");
   EXPECT_TRUE(fs::is_directory(folder.path()));
   EXPECT_EQ(folder.path("run.yaml"), folder.path() + "/run.yaml");
-  if (first_rank()) {
+  if (is_root(PETSC_COMM_WORLD)) {
     EXPECT_TRUE(fs::is_empty(folder.path()));
   }
 }

@@ -8,6 +8,7 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 
@@ -15,12 +16,6 @@ using namespace slipscale;
 using testing_support::scratch;
 
 namespace {
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
 
 Mesh mesh_of(MPI_Comm comm, const std::string& file, int refine = 0) {
   MeshSource source;
@@ -68,7 +63,7 @@ std::string failure_of(const auto& action) {
 TEST(FieldsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
   for (const auto& [name, block] : analytic::cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const OutputFolder alone(PETSC_COMM_SELF, folder + "/alone");
     write_frames(PETSC_COMM_SELF, mesh_of(PETSC_COMM_SELF, folder + "/block.msh"), alone.path());
     const auto expected = read_back::everything(alone.path("fields.h5"));
@@ -86,7 +81,7 @@ TEST(FieldsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
 TEST(FieldsFile, PointsCarryTheFieldOfTheirPlace) {
   for (const auto& [name, block] : analytic::cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto all = read_back::everything(folder + "/fields.h5");
     const auto& x = all.at("mesh/coordinates");
     const auto& u = all.at("frames/00001/u");
@@ -107,7 +102,7 @@ TEST(FieldsFile, CellsAreDrawnWhereTheyAre) {
   for (const auto& [name, block] : analytic::cases()) {
     if (block.shape == testing_support::Shape::mixed) continue;  // meshio's test reads those
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto all = read_back::everything(folder + "/fields.h5");
     const auto& cells = all.at("mesh/cells");
     const auto& x = all.at("mesh/coordinates").values;
@@ -128,7 +123,7 @@ TEST(FieldsFile, SeamNodesAreDrawnTwiceOnARefinedTorusToo) {
   auto block = analytic::cases()[3].block;
   ASSERT_TRUE(block.periodic_x);
   const std::string folder = folder_of(block, {}, 1);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const auto all = read_back::everything(folder + "/fields.h5");
   const auto& x = all.at("mesh/coordinates");
   ASSERT_GE(x.shape[0], 19u * 11u);
@@ -141,7 +136,7 @@ TEST(FieldsFile, SeamNodesAreDrawnTwiceOnARefinedTorusToo) {
 
 TEST(FieldsFile, HoldsOnlyWhatIsAskedFor) {
   const std::string folder = folder_of(analytic::cases()[0].block, {.u = false, .v = true, .stress = false});
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const auto all = read_back::everything(folder + "/fields.h5");
   EXPECT_EQ(all.count("frames/00000/u"), 0u);
   EXPECT_EQ(all.count("frames/00000/v"), 1u);
@@ -151,7 +146,7 @@ TEST(FieldsFile, HoldsOnlyWhatIsAskedFor) {
 
 TEST(FieldsFile, NamesItsRegions) {
   const std::string folder = folder_of(analytic::cases()[0].block);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const Hdf5File file = read_back::open(folder + "/fields.h5");
   const Hdf5Dataset region(H5Dopen2(file, "/mesh/region", H5P_DEFAULT));
   const std::string names = read_back::attribute(region, "names");
@@ -166,7 +161,7 @@ TEST(FieldsFile, CanBeReadAfterEveryFrame) {
   for (int frame = 0; frame < 3; ++frame) {
     const auto f = analytic::fields(mesh, frame);
     file.write(frame, f.u.data(), f.v.data(), f.stress.data());
-    if (rank_of_world() == 0) {
+    if (is_root(PETSC_COMM_WORLD)) {
       // A copy is what another process would see; HDF5 shares what it has open in this one.
       std::filesystem::copy_file(folder.path("fields.h5"), folder.path("copy.h5"),
                                  std::filesystem::copy_options::overwrite_existing);
@@ -187,13 +182,13 @@ TEST(FieldsFile, AFullDiskStopsAllRanks) {
     const Mesh mesh = mesh_of(PETSC_COMM_WORLD, folder.path("block.msh"));
     const auto f = analytic::fields(mesh, 0);
     FieldsFile file(PETSC_COMM_WORLD, mesh, folder.path(), {});
-    const read_back::SmallDisk disk(everywhere || rank_of_world() == 0 ? 900000 : 100000000);
+    const read_back::SmallDisk disk(everywhere || is_root(PETSC_COMM_WORLD) ? 900000 : 100000000);
     const std::string failure = failure_of([&] {
       for (int frame = 0; frame < 20; ++frame) file.write(frame, f.u.data(), f.v.data(), f.stress.data());
     });
     EXPECT_NE(failure.find("fields.h5 cannot be written: File too large; "), std::string::npos) << failure;
     file.close();
-    if (rank_of_world() == 0) {
+    if (is_root(PETSC_COMM_WORLD)) {
       const auto left = read_back::everything(folder.path("fields.h5"));
       EXPECT_GE(left.at("time").values.size(), 3u);
     }

@@ -37,6 +37,9 @@ class SeriesFile {
   void constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
                 const std::string& units, const std::string& description);
 
+  /// A text about the whole file, an attribute of its root group. Before the first row.
+  void about(const std::string& name, const std::string& text);
+
   /// One row of a quantity; every quantity must be given one before `end_row`.
   void append(int id, const double* row);
   void append(int id, const std::uint8_t* row);

@@ -31,6 +31,18 @@ DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row)
 /// All rows on rank 0, none elsewhere.
 DatasetSlice slice_of_root(MPI_Comm comm, std::vector<hsize_t> shape);
 
+/// Rows made of others' columns: entry `to` of each row shows column `column` of the dataset `from`, which has
+/// `width` of them (0: its rows are numbers). Entries that nothing fills are 0.
+struct DatasetView {
+  struct Entry {
+    std::size_t to;
+    std::string from;
+    hsize_t column, width;
+  };
+  std::vector<hsize_t> shape;  ///< rows first
+  std::vector<Entry> entries;
+};
+
 /// HDF5's name of PetscInt in memory and in files.
 hid_t index_type();
 
@@ -63,6 +75,10 @@ class SharedFile {
   /// Declares a list of numbers that grows by `append`, which takes rank 0's value.
   void add_series(const DatasetDescription& about);
   void append(const std::string& series, double value);
+
+  /// A dataset without data of its own: columns of others as entries of a larger row (HDF5's virtual dataset).
+  /// For readers that want tensors where we keep less.
+  void write_view(const DatasetDescription& about, const DatasetView& view);
 
   /// A second path to a dataset.
   void link(const std::string& from, const std::string& to);

@@ -62,6 +62,7 @@ class Recorder {
   const long contact_every_;
   const std::optional<long> fields_every_;
   const std::vector<long> field_steps_;  ///< ascending
+  const std::vector<double> transverse_;  ///< [local cells] or none
   const std::optional<StatisticsWindow> window_;
   Observer observer_;
   Probes probes_;
