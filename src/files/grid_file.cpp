@@ -32,8 +32,8 @@ std::size_t entries(const std::vector<hsize_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
-/// How many numbers the dataset has; refused where the file cannot hold what it declares, before any memory is
-/// asked for. (Nothing of zlib's packs tighter than 1032 : 1.)
+/// How many numbers the dataset has; refused where the file cannot hold what it declares, before any memory
+/// is asked for. (Nothing of zlib's packs tighter than 1032 : 1.)
 std::size_t stored_entries(hid_t dataset, const std::string& path) {
   const std::size_t count = entries(shape_of(dataset, path));
   const Hdf5Type type(hdf5(H5Dget_type(dataset), path));

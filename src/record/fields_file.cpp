@@ -32,12 +32,16 @@ std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities, bool wi
 FieldQuantities field_quantities(const std::string& list, const std::string& option) {
   FieldQuantities quantities{false, false, false, false};
   const std::pair<const char*, bool FieldQuantities::*> known[] = {
-      {"u", &FieldQuantities::u},           {"v", &FieldQuantities::v},
-      {"stress", &FieldQuantities::stress}, {"strain", &FieldQuantities::strain},
-      {"von_mises", &FieldQuantities::von_mises}, {"principal", &FieldQuantities::principal}};
+      {"u", &FieldQuantities::u},
+      {"v", &FieldQuantities::v},
+      {"stress", &FieldQuantities::stress},
+      {"strain", &FieldQuantities::strain},
+      {"von_mises", &FieldQuantities::von_mises},
+      {"principal", &FieldQuantities::principal}};
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
-    const auto found = std::find_if(std::begin(known), std::end(known), [&](const auto& each) { return each.first == word; });
+    const auto found = std::find_if(std::begin(known), std::end(known),
+                                    [&](const auto& each) { return each.first == word; });
     if (found == std::end(known))
       throw UserError("-" + option + " has '" + word +
                       "'; give a list of u, v, stress, strain, von_mises and principal, like u,stress");
@@ -61,8 +65,8 @@ FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder
   const MeshLayout layout = write_mesh(comm, *file_, image_);
   file_->add_series({"/time", "s", "times of the frames"});
   file_->flush();
-  xdmf_ = std::make_unique<XdmfDocument>(
-      XdmfDocument{name + ".h5", "block", layout, attributes(quantities, !transverse_.empty()), std::vector<double>{}});
+  xdmf_ = std::make_unique<XdmfDocument>(XdmfDocument{
+      name + ".h5", "block", layout, attributes(quantities, !transverse_.empty()), std::vector<double>{}});
 }
 
 FieldsFile::~FieldsFile() = default;
@@ -97,26 +101,31 @@ void FieldsFile::write_stress(const std::string& frame, const double* stress) {
   if (quantities_.stress) {
     write_on_cells({frame + "stress", "Pa", "stress of the cells; xx, yy and xy"}, stress);
     DatasetView view{{rows, 3, 3}, {}};
-    view.entries = {{0, frame + "stress", 0, 3}, {1, frame + "stress", 2, 3}, {3, frame + "stress", 2, 3}, {4, frame + "stress", 1, 3}};
+    for (const auto& [to, component] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 2}, {3, 2}, {4, 1}})
+      view.entries.push_back({to, frame + "stress", {3}, component});
     if (with_zz) {
-      write("stress_zz", "stress across the plane, nu (xx + yy); NaN where a stiffness that is not isotropic does not tell", zz);
-      view.entries.push_back({8, frame + "stress_zz", 0, 0});
+      write(
+          "stress_zz",
+          "stress across the plane, nu (xx + yy); NaN where a stiffness that is not isotropic does not tell",
+          zz);
+      view.entries.push_back({8, frame + "stress_zz", {}, 0});
     }
     file_->write_view({frame + "stress_tensor", "Pa", "the same as a tensor, zz included"}, view);
   }
   if (quantities_.von_mises && with_zz)
-    write("von_mises", "von Mises' equivalent stress of the cells", [&](int cell) { return von_mises(at(cell), zz(cell)); });
+    write("von_mises", "von Mises' equivalent stress of the cells",
+          [&](int cell) { return von_mises(at(cell), zz(cell)); });
   if (!quantities_.principal) return;
-  write("principal_high", "larger principal stress in the plane", [&](int cell) { return principal_stresses(at(cell))[0]; });
-  write("principal_low", "smaller principal stress in the plane", [&](int cell) { return principal_stresses(at(cell))[1]; });
+  write("principal_high", "larger principal stress in the plane",
+        [&](int cell) { return principal_stresses(at(cell))[0]; });
+  write("principal_low", "smaller principal stress in the plane",
+        [&](int cell) { return principal_stresses(at(cell))[1]; });
 }
 
 void FieldsFile::write_strain(const std::string& frame, const double* strain) {
-  const auto rows = static_cast<hsize_t>(image_.cells().total());
   write_on_cells({frame + "strain", "1", "strain of the cells; xx, yy and xy, engineering shear"}, strain);
-  for (const auto& [component, column] : {std::pair{"xx", 0}, {"yy", 1}, {"xy", 2}})
-    file_->write_view({frame + "strain_" + component, "1", std::string("the strain's component ") + component},
-                      {{rows}, {{0, frame + "strain", static_cast<hsize_t>(column), 3}}});
+  (void)write_components(*file_, xdmf_->mesh, {frame + "strain", "1", "the strain, engineering shear"}, {3},
+                         {"xx", "yy", "xy"}, "strain");
 }
 
 /// The third component is for ParaView, whose warping wants vectors in space.
@@ -139,8 +148,9 @@ void FieldsFile::close() { file_->finish(); }
 double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
                     const FieldQuantities& quantities) {
   const double vector = 3 * sizeof(double);
-  const double of_cell = (quantities.stress + quantities.strain) * vector +
-                         (quantities.stress + quantities.von_mises + 2 * quantities.principal) * sizeof(double);
+  const double of_cell =
+      (quantities.stress + quantities.strain) * vector +
+      (quantities.stress + quantities.von_mises + 2 * quantities.principal) * sizeof(double);
   const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
                        of_cell * static_cast<double>(cells) + group_overhead;
   return frames * frame + mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) +

@@ -94,8 +94,7 @@ ContactFile::ContactFile(const std::string& path, const Observer& observer, doub
   const hsize_t nodes = observer.contact_x().size();
   file_.constant("/x", observer.contact_x().data(), {nodes}, "m",
                  "where the contact nodes are in the undeformed body");
-  file_.constant("/y", observer.contact_y().data(), {nodes}, "m",
-                 "their heights in the undeformed body");
+  file_.constant("/y", observer.contact_y().data(), {nodes}, "m", "their heights in the undeformed body");
   file_.constant("/tributary_length", length_.data(), {nodes}, "m",
                  "length of the boundary that belongs to each node");
   time_ = file_.add("/time", {}, "s", "time of the row");
@@ -106,14 +105,16 @@ ContactFile::ContactFile(const std::string& path, const Observer& observer, doub
       file_.add("/slip_rate", {nodes}, "m/s", "velocity of the surface relative to the node, along +x");
   normal_ = file_.add("/normal_traction", {nodes}, "Pa", "pressure, >= 0");
   tangential_ = file_.add("/tangential_traction", {nodes}, "Pa", "traction on the body along +x");
-  strength_ = file_.add("/strength", {nodes}, "Pa",
-                        "what the friction law remembers: the stored strength (regularised threshold), or the "
-                        "tangential traction of the step; 0 where open");
+  strength_ =
+      file_.add("/strength", {nodes}, "Pa",
+                "what the friction law remembers: the stored strength (regularised threshold), or the "
+                "tangential traction of the step; 0 where open");
   status_ = file_.add("/status", {nodes}, "1", "0 open, 1 stick, 2 slip", SeriesFile::Storage::byte);
 }
 
 void ContactFile::write(const Observation& seen, double surface_velocity) {
-  for (auto* row : {&u_row_, &v_y_row_, &gap_row_, &slip_row_, &normal_row_, &tangential_row_, &strength_row_})
+  for (auto* row :
+       {&u_row_, &v_y_row_, &gap_row_, &slip_row_, &normal_row_, &tangential_row_, &strength_row_})
     row->clear();
   status_row_.clear();
   for (std::size_t k = 0; k < seen.contact.size(); ++k) {

@@ -90,16 +90,21 @@ void Observer::observe_contact(Observation& seen) const {
   std::vector<double> mine;
   for (int k = 0; k < contact.size(); ++k) {
     const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity()[contact.node[k]];
-    mine.insert(mine.end(), {u[0], u[1], v[0], v[1], contact.clearance[k] + u[1], contact.memory[k].traction,
-                             contact.traction[k], contact.force[k][1],
-                             static_cast<double>(contact.status[k])});
+    mine.insert(mine.end(),
+                {u[0], u[1], v[0], v[1], contact.clearance[k] + u[1], contact.memory[k].traction,
+                 contact.traction[k], contact.force[k][1], static_cast<double>(contact.status[k])});
   }
   const auto all = contact_gather_(mine, width);
   const double surface = body_.surface_velocity();
   double total = 0;
   for (std::size_t k = 0; k < along_x_.size(); ++k) {
     const double *row = &all[static_cast<std::size_t>(along_x_[k]) * width], length = contact_length_[k];
-    const ContactReading reading{{row[0], row[1]}, {row[2], row[3]}, row[4], row[5], row[6], row[7],
+    const ContactReading reading{{row[0], row[1]},
+                                 {row[2], row[3]},
+                                 row[4],
+                                 row[5],
+                                 row[6],
+                                 row[7],
                                  static_cast<ContactStatus>(row[8])};
     const double force = reading.traction * length;
     seen.surface.normal += reading.normal_force;

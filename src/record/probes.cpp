@@ -42,10 +42,12 @@ void share(MPI_Comm comm, std::vector<double>& values) {
 class PointBuckets {
  public:
   PointBuckets(const std::vector<Vector2>& points, const Box& box)
-      : box_(box), side_(std::max(1, static_cast<int>(std::sqrt(static_cast<double>(points.size()))))),
+      : box_(box),
+        side_(std::max(1, static_cast<int>(std::sqrt(static_cast<double>(points.size()))))),
         members_(static_cast<std::size_t>(side_) * side_) {
     for (int p = 0; p < static_cast<int>(points.size()); ++p)
-      members_[static_cast<std::size_t>(bucket(points[p][1], 1)) * side_ + bucket(points[p][0], 0)].push_back(p);
+      members_[static_cast<std::size_t>(bucket(points[p][1], 1)) * side_ + bucket(points[p][0], 0)].push_back(
+          p);
   }
 
   /// Calls `visit(point)` for each point that may lie in the rectangle.
@@ -191,7 +193,8 @@ void Probes::place_in_cells(MPI_Comm comm, const Mesh& mesh, std::vector<char>& 
     placed[p] = 1;
     for (std::size_t k = 0; k < 4; ++k)
       if (told[8 * p + 2 * k] >= 0)
-        corners_.push_back({static_cast<int>(p), static_cast<PetscInt>(told[8 * p + 2 * k]), told[8 * p + 2 * k + 1]});
+        corners_.push_back(
+            {static_cast<int>(p), static_cast<PetscInt>(told[8 * p + 2 * k]), told[8 * p + 2 * k + 1]});
   }
 }
 

@@ -90,8 +90,8 @@ long Cadence::steps(double step, long otherwise) const {
   if (every) return *every;
   if (!interval) return otherwise;
   if (*interval < 0.999 * step)
-    throw UserError(format("-{} is {:g} s, less than the step of {:g} s; give at least that", option, *interval,
-                           step));
+    throw UserError(
+        format("-{} is {:g} s, less than the step of {:g} s; give at least that", option, *interval, step));
   return std::max(1L, std::lround(*interval / step));
 }
 

@@ -59,8 +59,9 @@ std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& 
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
     of_region.push_back(transverse_ratio(model.materials[r]));
     if (choice.quantities.von_mises && std::isnan(of_region.back()))
-      throw UserError("-fields_quantities has von_mises, but the stiffness of region '" + model.mesh.regions[r].name +
-                      "' is not isotropic and does not tell the stress across the plane; leave von_mises out");
+      throw UserError(
+          "-fields_quantities has von_mises, but the stiffness of region '" + model.mesh.regions[r].name +
+          "' is not isotropic and does not tell the stress across the plane; leave von_mises out");
   }
   std::vector<double> of_cell;
   for (const int region : model.mesh.cells.region) of_cell.push_back(of_region[region]);

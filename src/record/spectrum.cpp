@@ -84,7 +84,8 @@ bool apart(const std::vector<double>& smooth, std::size_t one, std::size_t highe
 double power_near(const Spectrum& spectrum, double frequency) {
   const double bin = std::round(frequency / spectrum.step);
   double power = 0;
-  for (double k = std::max(bin - 2, 0.0); k <= bin + 2 && k < static_cast<double>(spectrum.density.size()); ++k)
+  for (double k = std::max(bin - 2, 0.0); k <= bin + 2 && k < static_cast<double>(spectrum.density.size());
+       ++k)
     power += spectrum.density[static_cast<std::size_t>(k)] * spectrum.step;
   return power;
 }

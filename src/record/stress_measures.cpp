@@ -16,7 +16,8 @@ double transverse_ratio(const Material& material) {
 
 double von_mises(const double* stress, double zz) {
   const double xx = stress[0], yy = stress[1], xy = stress[2];
-  return std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3 * xy * xy);
+  return std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) +
+                   3 * xy * xy);
 }
 
 std::array<double, 2> principal_stresses(const double* stress) {

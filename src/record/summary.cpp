@@ -97,7 +97,8 @@ std::pair<double, double> write_load(Yaml& yaml, const SummaryInput& in, const W
     yaml.line("settled", found.settled ? "true" : "false",
               "whether the second half of the window is like the first");
     yaml.number("drift", found.drift, "of the mean, from the first half of the window to the second");
-    yaml.number("amplitude_ratio", found.amplitude_ratio, "amplitude of the second half over that of the first");
+    yaml.number("amplitude_ratio", found.amplitude_ratio,
+                "amplitude of the second half over that of the first");
   }
   yaml.end();
   if (signal.empty()) return {0, 0};
@@ -107,10 +108,10 @@ std::pair<double, double> write_load(Yaml& yaml, const SummaryInput& in, const W
 
 void write_contact(Yaml& yaml, const Window& window, std::pair<double, double> friction) {
   const auto mean = [&](auto&& value) { return mean_of(window.values(value)); };
-  const Average stick = mean([](const auto& row) { return row.stick; }),
-                open = mean([](const auto& row) { return row.open; }),
-                drive = mean([](const auto& row) { return row.drive_power; }),
-                into = mean([](const auto& row) { return row.power_into_body; });
+  const Average stick = mean([](const auto&row) { return row.stick; }),
+                open = mean([](const auto&row) { return row.open; }),
+                drive = mean([](const auto&row) { return row.drive_power; }),
+                into = mean([](const auto&row) { return row.power_into_body; });
   yaml.begin("contact");
   yaml.text("regime",
             regime(stick.value, open.value, friction.second, friction.first,

@@ -34,7 +34,7 @@ class MeshImage {
 
   Topology topology() const { return topology_; }
   std::uint64_t checksum() const { return checksum_; }  ///< of the mesh file; 0: there is none
-  const Box& block() const { return block_; }  ///< of the whole mesh, m, where a box shows a part
+  const Box& block() const { return block_; }           ///< of the whole mesh, m, where a box shows a part
   const FileOrder& points() const { return points_; }
   const FileOrder& cells() const { return cells_; }
   const std::vector<int>& point_nodes() const {

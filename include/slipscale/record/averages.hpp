@@ -41,11 +41,11 @@ struct Settling {
 /// mean.
 Settling settling(std::span<const double> signal);
 
-/// What the contact does over time, after Peillex, Baillet, Berthier (IJTC2007-44438): "slip" or "stick-slip",
-/// with "-separated" where it opens as well; a state counts from 1 % of length and time on. "steady" where
-/// nothing vibrates: friction varies by less than 1 % of its mean, and less than 1 % of the drive power goes
-/// into the body. (A wave that runs around a periodic strip hardly moves the mean friction, but takes power.)
-/// "open" where the body does not touch at all.
+/// What the contact does over time, after Peillex, Baillet, Berthier (IJTC2007-44438): "slip" or
+/// "stick-slip", with "-separated" where it opens as well; a state counts from 1 % of length and time on.
+/// "steady" where nothing vibrates: friction varies by less than 1 % of its mean, and less than 1 % of the
+/// drive power goes into the body. (A wave that runs around a periodic strip hardly moves the mean friction,
+/// but takes power.) "open" where the body does not touch at all.
 std::string regime(double stick, double open, double amplitude, double friction, double power_ratio);
 
 /// Standard deviation over the rows.

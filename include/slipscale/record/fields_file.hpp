@@ -20,8 +20,8 @@ struct FieldQuantities {
   bool of_stress() const { return stress || von_mises || principal; }  ///< needs the stress of the cells
 };
 
-/// Reads "u,v,stress,strain,von_mises,principal" or a part of it, in any order. Throws `UserError` naming `option` on anything
-/// else.
+/// Reads "u,v,stress,strain,von_mises,principal" or a part of it, in any order. Throws `UserError` naming
+/// `option` on anything else.
 FieldQuantities field_quantities(const std::string& list, const std::string& option = "fields_quantities");
 
 /// fields.h5 and fields.xdmf: the mesh and the fields on it at the saved times; opens in ParaView as it is.
@@ -39,7 +39,8 @@ FieldQuantities field_quantities(const std::string& list, const std::string& opt
 class FieldsFile {
  public:
   /// Writes the mesh. `folder` must exist; older files of these names, `name`.h5 and .xdmf, are overwritten.
-  /// `transverse` [local cells] is σ_zz/(σ_xx + σ_yy), see `transverse_ratio`; without it nothing is known of zz.
+  /// `transverse` [local cells] is σ_zz/(σ_xx + σ_yy), see `transverse_ratio`; without it nothing is known of
+  /// zz.
   FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
              const std::string& name = "fields", std::vector<double> transverse = {});
   /// Of the whole mesh, without a box.

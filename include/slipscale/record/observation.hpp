@@ -15,8 +15,8 @@ struct BoundaryLoad {
       0;  ///< of the body on its support, > 0 along +x (along +y where the boundary is vertical)
 };
 
-/// Unit vectors at a boundary: its mean outward normal (+y where it has none), and along it towards +x (+y where
-/// it is vertical).
+/// Unit vectors at a boundary: its mean outward normal (+y where it has none), and along it towards +x (+y
+/// where it is vertical).
 struct Directions {
   Vector2 normal, tangent;
 };

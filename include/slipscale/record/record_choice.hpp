@@ -34,8 +34,8 @@ struct Cadence {
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
-  Cadence history, contact;      ///< contact.h5 has about a thousand rows when nothing is given
-  std::vector<Vector2> points;   ///< m
+  Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
+  std::vector<Vector2> points;  ///< m
   Cadence fields;
   std::vector<double> fields_times;  ///< s
   FieldQuantities quantities;

@@ -30,8 +30,8 @@ class Recorder {
     return n % history_every_ == 0 || n == last_ || contact_due(n) || fields_due(n) || statistics_due(n);
   }
   /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the
-  /// state is no longer finite, when energy appears from nowhere, or when the disk is full or the folder gone.
-  /// Collective.
+  /// state is no longer finite, when energy appears from nowhere, or when the disk is full or the folder
+  /// gone. Collective.
   void after_step(long n);
 
   /// Predicted steps, time, memory and output, for the user to see before the first step. Collective.
@@ -61,7 +61,7 @@ class Recorder {
   const bool has_contact_;
   const long contact_every_;
   const std::optional<long> fields_every_;
-  const std::vector<long> field_steps_;  ///< ascending
+  const std::vector<long> field_steps_;   ///< ascending
   const std::vector<double> transverse_;  ///< [local cells] or none
   const std::optional<StatisticsWindow> window_;
   Observer observer_;
