@@ -7,22 +7,15 @@
 #include <iterator>
 
 #include "block_mesh.hpp"
+#include "failure.hpp"
 #include "read_back.hpp"
 #include "slipscale/base/error.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 
 namespace {
-
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const LibraryError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string file_with(const std::string& name, const std::string& text) {
   const std::string path = scratch(name);
@@ -47,11 +40,11 @@ TEST(ReserveSpace, ChangesNothingThatCanBeSeen) {
 TEST(ReserveSpace, SaysWhatIsInTheWay) {
   const std::string path = file_with("small", "data");
   const read_back::SmallDisk disk(100000);
-  EXPECT_EQ(failure_of([&] { reserve_space(path, 4, 1000000); }), "File too large");
-  EXPECT_EQ(failure_of([&] { fill_with_zeros(path, 1000000); }), "File too large");
+  EXPECT_EQ(failure_of<LibraryError>([&] { reserve_space(path, 4, 1000000); }), "File too large");
+  EXPECT_EQ(failure_of<LibraryError>([&] { fill_with_zeros(path, 1000000); }), "File too large");
   EXPECT_EQ(text_of(path), "data");
   std::filesystem::remove(path);
-  EXPECT_EQ(failure_of([&] { reserve_space(path, 4, 10); }), "No such file or directory");
+  EXPECT_EQ(failure_of<LibraryError>([&] { reserve_space(path, 4, 10); }), "No such file or directory");
 }
 
 /// What stands in for reserving where the file system cannot (ext2, NFS).
@@ -71,5 +64,5 @@ TEST(FillWithZeros, KeepsWhatIsThereAndGrowsTheFile) {
 TEST(FillWithZeros, LeavesTheFileAsItWasOnAFullDisk) {
   std::ofstream probe("/dev/full");
   if (!probe) GTEST_SKIP() << "no /dev/full here";
-  EXPECT_FALSE(failure_of([&] { fill_with_zeros("/dev/full", 10); }).empty());
+  EXPECT_FALSE(failure_of<LibraryError>([&] { fill_with_zeros("/dev/full", 10); }).empty());
 }

@@ -9,21 +9,14 @@
 #include <memory>
 
 #include "block_mesh.hpp"
+#include "failure.hpp"
 #include "slipscale/base/error.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 
 namespace {
-
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string folder_named(const std::string& name) {
   const std::string folder = scratch(name);
@@ -37,16 +30,17 @@ TEST(FolderLock, KeepsOthersOutAsLongAsItLives) {
   const std::string folder = folder_named("locked");
   {
     const FolderLock lock(folder);
-    const std::string failure = failure_of([&] { const FolderLock second(folder); });
+    const std::string failure = failure_of<UserError>([&] { const FolderLock second(folder); });
     EXPECT_EQ(failure.find("-output_folder '" + folder + "' belongs to a run that still goes on (process " +
                            std::to_string(getpid()) + " on "),
               0u)
         << failure;
     EXPECT_NE(failure.find("; wait for it or give another folder"), std::string::npos) << failure;
-    EXPECT_NE(failure_of([&] { const FolderLock third(folder); }), "") << "the refused one has not opened it";
+    EXPECT_NE(failure_of<UserError>([&] { const FolderLock third(folder); }), "")
+        << "the refused one has not opened it";
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder));
-  EXPECT_EQ(failure_of([&] { const FolderLock again(folder); }), "");
+  EXPECT_EQ(failure_of<UserError>([&] { const FolderLock again(folder); }), "");
 }
 
 /// A child holds the folder until it is killed, and leaves its file behind.
@@ -62,11 +56,11 @@ TEST(FolderLock, OfAKilledProcessIsInNobodysWay) {
   }
   char byte = 0;
   ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  EXPECT_NE(failure_of([&] { const FolderLock lock(folder); }), "");
+  EXPECT_NE(failure_of<UserError>([&] { const FolderLock lock(folder); }), "");
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
   EXPECT_FALSE(std::filesystem::is_empty(folder));
-  EXPECT_EQ(failure_of([&] { const FolderLock lock(folder); }), "");
+  EXPECT_EQ(failure_of<UserError>([&] { const FolderLock lock(folder); }), "");
 }
 
 TEST(FolderLock, WithoutAFolderIsTheSystemsFault) {

@@ -8,10 +8,12 @@
 #include <sstream>
 
 #include "block_mesh.hpp"
+#include "failure.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 namespace fs = std::filesystem;
 
@@ -20,17 +22,6 @@ namespace {
 void on_first_rank(const auto& action) {
   if (is_root(PETSC_COMM_WORLD)) action();
   MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const UserError& error) {
-    return error.what();
-  } catch (const RunError& error) {
-    return std::string("run: ") + error.what();
-  }
-  return "";
 }
 
 /// Files below the folder but for the one that keeps others out.
@@ -80,7 +71,7 @@ TEST(OutputFolder, ThatCannotBeIsAUsersErrorOnAllRanks) {
   const std::string path = scratch("file");
   on_first_rank([&] { std::ofstream(path) << "a file"; });
   for (const std::string& impossible : {path, path + "/below", std::string("/proc/slipscale")}) {
-    const std::string failure = failure_of([&] { OutputFolder(PETSC_COMM_WORLD, impossible); });
+    const std::string failure = failure_of<UserError>([&] { OutputFolder(PETSC_COMM_WORLD, impossible); });
     EXPECT_EQ(failure.find("-output_folder '" + impossible + "' "), 0u) << failure;
     EXPECT_NE(failure.find("; give a folder"), std::string::npos) << failure;
   }
@@ -96,8 +87,7 @@ TEST(OutputFolder, ReplacesTextsAsAWhole) {
     EXPECT_EQ(files_below(folder.path()), 1);
     fs::remove_all(folder.path());
   });
-  const std::string failure = failure_of([&] { folder.write_text("summary.yaml", "third: 3\n"); });
-  EXPECT_EQ(failure.find("run: "), 0u) << failure;
+  const std::string failure = failure_of<RunError>([&] { folder.write_text("summary.yaml", "third: 3\n"); });
   EXPECT_NE(failure.find("summary.yaml: No such file or directory"), std::string::npos) << failure;
 }
 
@@ -107,21 +97,22 @@ TEST(OutputFolder, BelongsToOneRunAtATime) {
     const OutputFolder folder(PETSC_COMM_WORLD, path);
     on_first_rank([&] { std::ofstream(folder.path("run.yaml")) << "mine"; });
     const std::string failure =
-        failure_of([&] { const OutputFolder second(PETSC_COMM_WORLD, path, {"run.yaml"}); });
+        failure_of<UserError>([&] { const OutputFolder second(PETSC_COMM_WORLD, path, {"run.yaml"}); });
     EXPECT_EQ(failure.find("-output_folder '" + path + "' belongs to a run that still goes on"), 0u)
         << failure;
     on_first_rank([&] { EXPECT_EQ(text_of(path + "/run.yaml"), "mine"); });
   }
-  EXPECT_EQ(failure_of([&] { const OutputFolder third(PETSC_COMM_WORLD, path); }), "");
+  EXPECT_EQ(failure_of<UserError>([&] { const OutputFolder third(PETSC_COMM_WORLD, path); }), "");
 }
 
 TEST(Unwritable, FoldersAreSeenBeforeTheWorkAndLeftAsTheyAre) {
   const std::string path = scratch("plain");
   on_first_rank([&] { std::ofstream(path) << "a file"; });
-  EXPECT_EQ(failure_of([&] { refuse_unwritable(PETSC_COMM_WORLD, scratch("new") + "/a/b"); }), "");
+  EXPECT_EQ(failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, scratch("new") + "/a/b"); }), "");
   EXPECT_FALSE(fs::exists(scratch("new")));
   for (const std::string& impossible : {path, path + "/below", std::string("/proc/slipscale")}) {
-    const std::string failure = failure_of([&] { refuse_unwritable(PETSC_COMM_WORLD, impossible); });
+    const std::string failure =
+        failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, impossible); });
     EXPECT_EQ(failure.find("-output_folder '" + impossible + "' cannot be "), 0u) << failure;
   }
 }

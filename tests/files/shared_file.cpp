@@ -7,25 +7,18 @@
 #include <numeric>
 
 #include "block_mesh.hpp"
+#include "failure.hpp"
 #include "read_back.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 
 namespace {
 
 const MPI_Comm& world = PETSC_COMM_WORLD;
-
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// Rows 0, 1, 2, … of a dataset, each rank its share of them.
 void write_numbers(SharedFile& file, const std::string& path, std::size_t rows) {
@@ -80,11 +73,11 @@ TEST(SharedFile, AWriteThatFailsStopsAllRanksAndKeepsWhatWasFlushed) {
     write_numbers(file, "/before", 1000);
     file.flush();
     const read_back::SmallDisk disk(100000);
-    first = failure_of([&] {
+    first = failure_of<RunError>([&] {
       write_numbers(file, "/after", 1000000);
       file.flush();
     });
-    second = failure_of([&] { write_numbers(file, "/later", 10); });
+    second = failure_of<RunError>([&] { write_numbers(file, "/later", 10); });
   }
   EXPECT_NE(first.find("failing.h5 cannot be written: File too large; see that"), std::string::npos) << first;
   EXPECT_NE(second.find("failing.h5 cannot be written: an earlier write failed"), std::string::npos)

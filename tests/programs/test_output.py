@@ -89,6 +89,53 @@ class FullDisk(InBlock):
         self.assertEqual((outcome.codes, outcome.err), ([0, 0], ""))
 
 
+class SmallDisk(InBlock):
+    """Real ones, where this machine lets us mount them: tmpfs reserves room, ext2 without extents cannot."""
+
+    def mounted(self, kind, kilobytes):
+        disk = self.folder / kind
+        disk.mkdir()
+        if kind == "ext2":
+            image = self.folder / "image"
+            image.write_bytes(bytes(1024 * kilobytes))
+            subprocess.run(["mkfs.ext2", "-q", "-F", image], capture_output=True, check=False)
+            command = ["mount", "-o", "loop", image, disk]
+        else:
+            command = ["mount", "-t", kind, "-o", f"size={kilobytes}k", kind, disk]
+        try:
+            done = subprocess.run(command, capture_output=True)
+        except FileNotFoundError as error:
+            self.skipTest(str(error))
+        if done.returncode != 0:
+            self.skipTest(f"no {kind} can be mounted here")
+        self.addCleanup(subprocess.run, ["umount", "-l", disk], check=True)
+        return disk
+
+    def check(self, kind):
+        disk = self.mounted(kind, 900)
+        for ranks in RANKS:
+            for scene in ({"fields_every": 1}, {"history_every": 1, "contact_every": 1, "time_end": 80e-6}):
+                with self.subTest(kind=kind, ranks=ranks, **scene):
+                    outcome = self.slide(*arguments_of({**SCENE, **scene, "output_folder": f"{kind}/out"}), ranks=ranks)
+                    self.assertEqual(outcome.codes, [1] * ranks, outcome.err)
+                    self.assertRegex(outcome.err, r"slide: \S+ cannot be written: No space left on device; see that -output")
+                    self.assertNotIn("egmentation", outcome.err)
+                    contact = datasets(disk / "out" / "contact.h5")
+                    self.assertEqual(len({len(contact[name]) for name in ("time", "u", "gap", "status")}), 1)
+                    history = datasets(disk / "out" / "history.h5")
+                    np.testing.assert_array_equal(history["step"], history["step"][1] * np.arange(len(history["step"])))
+                    if "fields_every" in scene:
+                        frames = len(datasets(disk / "out" / "fields.h5")["time"])
+                        self.assertEqual((disk / "out" / "fields.xdmf").read_text().count("<Time "), frames)
+                    shutil.rmtree(disk / "out")
+
+    def test_that_reserves(self):
+        self.check("tmpfs")
+
+    def test_that_cannot_reserve(self):
+        self.check("ext2")
+
+
 class InUse(InBlock):
     def test_a_second_run_is_refused_and_a_killed_one_is_in_nobodys_way(self):
         for ranks in RANKS:

@@ -7,12 +7,14 @@
 #include <sstream>
 
 #include "analytic_fields.hpp"
+#include "failure.hpp"
 #include "read_back.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 
 namespace {
@@ -47,15 +49,6 @@ std::string folder_of(const testing_support::Block& block, FieldQuantities quant
   write_frames(PETSC_COMM_WORLD, mesh_of(PETSC_COMM_WORLD, folder.path("block.msh"), refine), folder.path(),
                quantities);
   return folder.path();
-}
-
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -183,7 +176,7 @@ TEST(FieldsFile, AFullDiskStopsAllRanks) {
     const auto f = analytic::fields(mesh, 0);
     FieldsFile file(PETSC_COMM_WORLD, mesh, folder.path(), {});
     const read_back::SmallDisk disk(everywhere || is_root(PETSC_COMM_WORLD) ? 900000 : 100000000);
-    const std::string failure = failure_of([&] {
+    const std::string failure = failure_of<RunError>([&] {
       for (int frame = 0; frame < 20; ++frame) file.write(frame, f.u.data(), f.v.data(), f.stress.data());
     });
     EXPECT_NE(failure.find("fields.h5 cannot be written: File too large; "), std::string::npos) << failure;
@@ -199,7 +192,8 @@ TEST(FieldsFile, AFolderThatIsNotThereStopsAllRanks) {
   const std::string path = scratch("block.msh");
   testing_support::write_block({}, path);
   const Mesh mesh = mesh_of(PETSC_COMM_WORLD, path);
-  const std::string failure = failure_of([&] { FieldsFile(PETSC_COMM_WORLD, mesh, "/nowhere/at/all", {}); });
+  const std::string failure =
+      failure_of<RunError>([&] { FieldsFile(PETSC_COMM_WORLD, mesh, "/nowhere/at/all", {}); });
   EXPECT_NE(failure.find("/nowhere/at/all/fields.h5 cannot be written"), std::string::npos) << failure;
 }
 
