@@ -1,8 +1,6 @@
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "commit.hpp"
 #include "slipscale/base/error.hpp"
@@ -83,19 +81,6 @@ void measure_costs(MPI_Comm comm, std::chrono::steady_clock::time_point start, H
   MPI_Allreduce(MPI_IN_PLACE, &found.memory, 1, MPI_DOUBLE, MPI_SUM, comm);
   found.ranks = ranks_of(comm);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Sees before the work that there is a place for its result, and leaves it as it is.
-void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
-  std::filesystem::path place = std::filesystem::absolute(folder);
-  std::error_code none;
-  while (!std::filesystem::exists(place, none) && place.has_relative_path()) place = place.parent_path();
-  const int rank = rank_of(comm);
-  const bool usable =
-      rank != 0 || (std::filesystem::is_directory(place, none) && access(place.c_str(), W_OK) == 0);
-  throw_together(comm, usable ? ""
-                              : "-output_folder '" + folder + "' cannot be written to ('" + place.string() +
-                                    "' is no folder, or not yours); give a folder that you may write to");
 }
 
 /// Solves for each kind of boundary, for the first on its mesh `mesh`, and on the refined ones.
