@@ -86,7 +86,7 @@ def means(axes, runs, name, letter, label):
     axes.set_xticks(range(len(runs)), [run.name for run in runs], rotation=20 if len(runs) > 3 else 0)
     axes.set_xlim(-0.5, len(runs) - 0.2)
     axes.grid(alpha=0.25)
-    axes.set(title=f"({letter}) {label}, bars of three standard errors")
+    axes.set(title=f"({letter}) {label} ± 3 standard errors")
 
 
 def draw(runs):
@@ -98,7 +98,7 @@ def draw(runs):
     portraits(axes[0, 2], runs)
     fractions(axes[1, 0], runs)
     means(axes[1, 1], runs, "friction", "e", "Mean T / mean N")
-    means(axes[1, 2], runs, "power_into_body", "f", "Power into the body [W/m]")
+    means(axes[1, 2], runs, "power_into_body", "f", "Power into body [W/m]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncol=min(6, len(runs)), frameon=False)
     figure.suptitle(" ", fontsize="x-large")  # room for the legend

@@ -67,9 +67,9 @@ def draw_cells(axes, mesh, values, colours, linewidth=0.8):
 
 
 def keep_small(picture, copy):
-    """A copy with 256 colours, a third of the size, to stand in a README."""
+    """A copy to stand in a README: without transparency, in all of its colours, as fields would show steps in fewer."""
     with Image.open(picture) as image:
-        image.convert("RGB").quantize(256).save(copy, optimize=True)
+        image.convert("RGB").save(copy, optimize=True)
 
 
 def write_picture(parser, draw, arguments=None):
