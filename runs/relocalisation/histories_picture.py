@@ -11,7 +11,7 @@ import sys
 
 from slipscale.parser import Parser
 from slipscale.pictures.drawing import plt, write_picture
-from slipscale.pictures.local_history import heterogeneous_history, history_panel
+from slipscale.pictures.local_history import heterogeneous_history, history_panel, legend_below
 from slipscale.pictures.panels import say
 from slipscale.reading import Fields, UnreadableRun
 
@@ -23,7 +23,7 @@ def draw(cases, component="yy"):
     index, name = COMPONENTS.index(component), rf"$\sigma_{{{component}}}$"
     points = [points_of(relocalised) for _, _, relocalised in cases]
     rows = max(map(len, points))
-    figure, axes = plt.subplots(rows, len(cases), figsize=(6.2 * len(cases), 3 * rows + 0.4), layout="constrained",
+    figure, axes = plt.subplots(rows, len(cases), figsize=(6.2 * len(cases), 3.3 * rows + 0.7), layout="constrained",
                                 squeeze=False)
     for column, (case, reference, _) in enumerate(cases):
         with Fields(reference) as fields:
@@ -35,6 +35,7 @@ def draw(cases, component="yy"):
                                   name, None)
                 else:
                     say(panel, case, "There is no further probe point (option relocalize_points).")
+    legend_below(figure, axes.flat)
     figure.suptitle(f"Local {name} over time", fontsize="large", fontweight="bold")
     return figure
 

@@ -35,6 +35,7 @@ from slipscale.adapting import relaxation, search
 from slipscale.adapting.trials import Trials, changed, compared, options_of, spelled_out, value_of
 from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
+from slipscale.measuring.window import default_window
 from slipscale.parser import Parser
 from slipscale.reading import History, UnreadableRun
 from slipscale.reading.yaml_file import load
@@ -55,8 +56,8 @@ class Failure(Exception):
 class Adaptation:
     def __init__(self, heterogeneous, homogeneous, asked):
         self.asked, self.folders = asked, {"heterogeneous": heterogeneous, "homogeneous": homogeneous}
-        end = min(History(folder).time[-1] for folder in self.folders.values())
-        self.window = tuple(asked.window or (0.5 * end, end))
+        self.window = tuple(asked.window or default_window(
+            min((History(folder).time for folder in self.folders.values()), key=lambda time: time[-1])))
         spectrum = friction_spectrum(heterogeneous, self.window)
         self.target = measures(heterogeneous, self.window)
         self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
