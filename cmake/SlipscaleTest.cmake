@@ -11,6 +11,8 @@ function(slipscale_test name)
     set(arg_TIMEOUT 300)
   endif()
   add_executable(${name} ${arg_SOURCES})
+  list(TRANSFORM arg_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_property(GLOBAL APPEND PROPERTY slipscale_test_files ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE slipscale_test_support)
   foreach(ranks IN LISTS arg_RANKS arg_NIGHTLY)
     set(labels ${arg_LABELS})
@@ -39,7 +41,22 @@ function(slipscale_python_test name)
   endif()
   add_test(NAME ${name} COMMAND ${SLIPSCALE_PYTHON} -B ${PROJECT_SOURCE_DIR}/tests/support/run_python.py
                                 ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FILE} ${arg_CASES})
+  set_property(GLOBAL APPEND PROPERTY slipscale_test_files ${CMAKE_CURRENT_SOURCE_DIR}/${arg_FILE})
   set_tests_properties(${name} PROPERTIES
     LABELS "${arg_LABELS}" PROCESSORS ${arg_PROCESSORS} TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "${SLIPSCALE_MPI_ENVIRONMENT};${arg_ENVIRONMENT}")
+endfunction()
+
+# A file of tests that no test runs would pass for ever: refused.
+function(slipscale_all_files_are_run)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/test_*.py ${CMAKE_CURRENT_SOURCE_DIR}/*/test_*.py
+       ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
+  get_property(run GLOBAL PROPERTY slipscale_test_files)
+  list(REMOVE_ITEM files ${run})
+  foreach(file ${files})
+    file(STRINGS ${file} cases REGEX "^(TEST|TEST_F|TEST_P|class .*TestCase)" LIMIT_COUNT 1)
+    if(cases OR file MATCHES "\\.py$")
+      message(SEND_ERROR "${file} holds tests, but no slipscale_test or slipscale_python_test names it")
+    endif()
+  endforeach()
 endfunction()
