@@ -26,4 +26,5 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/slipscaleConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/slipscaleConfigVersion.cmake
   cmake/FindPETSc.cmake cmake/FindHDF5MPI.cmake cmake/FindMETIS.cmake cmake/FindFFTW3.cmake
+  cmake/FindLibYAML.cmake
   DESTINATION ${package_dir} COMPONENT slipscale)

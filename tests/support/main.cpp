@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   MPI_Init(&argc, &argv);
   if (PetscInitialize(&argc, &argv, nullptr, nullptr)) return 1;
-  const int rank = rank_of(MPI_COMM_WORLD);
+  const int rank = slipscale::rank_of(MPI_COMM_WORLD);
   auto& listeners = testing::UnitTest::GetInstance()->listeners();
   class Quiet : public testing::EmptyTestEventListener {
     void OnTestPartResult(const testing::TestPartResult& result) override {
