@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
 #include "slipscale/solid/element.hpp"
@@ -65,7 +66,11 @@ void write_stiffness(MPI_Comm comm, SharedFile& file, const Mesh& mesh,
   append(solution.stiffness);
   file.write({"/effective/stiffness", "Pa", "effective stiffness; xx, yy, xy with engineering shear"},
              whole_on_first(comm, {3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
-             [&](hid_t set) { write_attribute(set, "boundary", name(solution.boundary)); });
+             [&](hid_t set) {
+               write_attribute(set, "boundary", name(solution.boundary));
+               write_attribute(set, "cell_area", solution.area);
+               write_attribute(set, "mesh_checksum", format("fnv1a:{:016x}", mesh.checksum));
+             });
 }
 
 /// Somewhat more than the file will have.

@@ -148,13 +148,14 @@ TEST(Relocalisation, OfStatisticsIsTheStatisticsOfFrames) {
   }
   const Moments homogeneous = moments(frames), strain = moments(strains), stress = moments(stresses);
   Tensors mean(relocalize.places()), mean_strain(mean), mean_stress(mean);
-  Covariances covariance(relocalize.places()), strain_covariance(covariance), stress_covariance(covariance);
+  Covariances strain_covariance(relocalize.places()), stress_covariance(strain_covariance);
+  std::vector<CovarianceRoot> roots(relocalize.places());
   relocalize.macroscopic(homogeneous.mean, mean);
-  relocalize.macroscopic(homogeneous.covariance, covariance);
+  relocalize.macroscopic_roots(homogeneous.covariance, roots);
   relocalize.strain(mean, mean_strain);
   relocalize.stress(mean, mean_stress);
-  relocalize.strain_covariance(covariance, strain_covariance);
-  relocalize.stress_covariance(covariance, stress_covariance);
+  relocalize.strain_covariance(roots, strain_covariance);
+  relocalize.stress_covariance(roots, stress_covariance);
   const double e = 1e-4, s = 1e-4 * 100e9;  // sizes
   for (std::size_t k = 0; k < mean.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {

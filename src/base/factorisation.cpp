@@ -1,0 +1,36 @@
+#include "slipscale/base/factorisation.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "slipscale/base/error.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr PetscInt least_workspace = 40, most_workspace = 2000;  ///< per cent beyond what was foreseen
+
+}  // namespace
+
+bool enlarge_workspace(KSP ksp) {
+  PC pc = nullptr;
+  PCFailedReason reason = PC_NOERROR;
+  petsc(KSPGetPC(ksp, &pc));
+  petsc(PCGetFailedReason(pc, &reason));
+  if (reason != PC_FACTOR_OUTMEMORY) return false;
+  Mat factor = nullptr, matrix = nullptr;
+  MatSolverType package = nullptr;
+  petsc(PCFactorGetMatrix(pc, &factor));
+  petsc(MatFactorGetSolverType(factor, &package));
+  if (!package || std::string_view(package) != MATSOLVERMUMPS) return false;
+  PetscInt percent = 0;
+  petsc(MatMumpsGetIcntl(factor, 14, &percent));
+  if (percent >= most_workspace) return false;
+  petsc(MatMumpsSetIcntl(factor, 14, std::max(least_workspace, 2 * percent)));
+  petsc(MatFactorClearError(factor));
+  petsc(KSPGetOperators(ksp, &matrix, nullptr));
+  petsc(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)));  // or nothing is factorised again
+  return true;
+}
+
+}  // namespace slipscale
