@@ -1,7 +1,7 @@
 """Collects the runs of the study in one table; run by the Snakefile."""
 
-from analysis.effective import read_effective, relative_errors, square_symmetric
-from analysis.table import collect, write_csv
+from slipscale.reading.effective import read_effective, relative_errors, square_symmetric
+from slipscale.running.table import collect, write_csv
 
 
 def result(folder, reference):

@@ -1,9 +1,9 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-from analysis.convergence import observed_order, orders_from_errors, richardson
-from analysis.report import bullets, failures, folded, publish
-from analysis.table import markdown, read_csv
-from analysis.work_precision import MEGA, OPTIONS, Study, change, column, power_of
+from accuracy.work_precision import MEGA, OPTIONS, Study, change, column, power_of
+from slipscale.measuring.convergence import observed_order, orders_from_errors, richardson
+from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.table import markdown, read_csv
 
 GIGA = 1e-9
 MODULI = ("C11", "C12", "C66")

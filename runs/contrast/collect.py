@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from analysis.adapted import adapted_rows
-from analysis.distance import spectrum_distance
-from analysis.effective import SIX, read_effective
-from analysis.regime import costs, friction_spectrum, measures
-from analysis.table import collect, write_csv
+from contrast.adapted import adapted_rows
+from slipscale.measuring.distance import spectrum_distance
+from slipscale.measuring.regime import costs, friction_spectrum, measures
+from slipscale.reading.effective import SIX, read_effective
+from slipscale.running.table import collect, write_csv
 
 job = snakemake  # noqa: F821
 window = [float(time) for time in job.params.window]

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from analysis.adapted import WAYS, before_of, best_level, cases_of
-from analysis.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
-from analysis.report import bullets, failures, folded, publish
-from analysis.table import markdown, read_csv
+from contrast.adapted import WAYS, before_of, best_level, cases_of
+from contrast.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
+from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.table import markdown, read_csv
 
 GIGA, KILO = 1e-9, 1e-3
 RUN = ("young", "diameter", "size", "seed", "model")

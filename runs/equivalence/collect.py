@@ -5,9 +5,9 @@ from pathlib import Path
 
 import yaml
 
-from analysis.equivalence import points
-from analysis.regime import costs, measures
-from analysis.table import collect, write_csv
+from equivalence.verdict import points
+from slipscale.measuring.regime import costs, measures
+from slipscale.running.table import collect, write_csv
 
 job = snakemake  # noqa: F821
 windows = {name: [float(end) for end in window] for name, window in job.params.windows.items()}

@@ -2,10 +2,10 @@
 
 from collections import Counter
 
-from analysis.equivalence import ALIKE, FLOORS, SCALARS, SETTLED, VERDICTS
-from analysis.report import bullets, failures, folded, publish
-from analysis.scales import values_of
-from analysis.table import markdown, read_csv
+from equivalence.verdict import ALIKE, FLOORS, SCALARS, SETTLED, VERDICTS
+from slipscale.pictures.scales import values_of
+from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.table import markdown, read_csv
 
 FORMS = {"friction": (1, ".3f"), "frequency": (1e-3, ".1f"), "amplitude": (1, ".3f"), "stick": (1, ".3f"),
          "open": (1, ".3f"), "velocity": (1, ".2f"), "power_ratio": (1, ".3f")}

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from analysis.reading import UnreadableRun, read_yaml
-from analysis.refined import average_rows, distance_rows
-from analysis.refinement import found_in, summary_rows
-from analysis.regime import costs
-from analysis.sequences import chains
-from analysis.table import run_name, write_csv
+from refinement.orders import found_in, summary_rows
+from refinement.refined import average_rows, distance_rows
+from refinement.sequences import chains
+from slipscale.measuring.regime import costs
+from slipscale.reading import UnreadableRun, read_yaml
+from slipscale.running.table import run_name, write_csv
 
 DRAWN = ("inclusions", "moved", "redrawn", "dropped")  # of morphology's report
 

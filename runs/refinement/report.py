@@ -1,8 +1,8 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-from analysis.refinement_report import report
-from analysis.report import publish
-from analysis.table import read_csv
+from refinement.findings import report
+from slipscale.reports.publish import publish
+from slipscale.running.table import read_csv
 
 job = snakemake  # noqa: F821
 publish(report(read_csv(job.input.table), job.params.unfolded), job.output[0], job.params.readme, job.params.shown,

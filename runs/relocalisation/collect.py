@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from analysis.comparison import compare_phases, read_comparison
-from analysis.mesh import centroids_and_areas
-from analysis.reading import Statistics, Summary
-from analysis.table import collect, write_csv
+from relocalisation.comparison import compare_phases, read_comparison
+from slipscale.reading import Statistics, Summary
+from slipscale.reading.mesh import centroids_and_areas
+from slipscale.running.table import collect, write_csv
 
 
 def outcome_of(path):

@@ -1,7 +1,7 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-from analysis.report import bullets, failures, folded, publish
-from analysis.table import markdown, read_csv
+from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.table import markdown, read_csv
 
 OPTIONS = ("case", "seed", "macro", "tensors", "recovery", "strip")
 PARTS = ("all", "layer", "bulk", "matrix", "inclusion")

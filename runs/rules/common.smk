@@ -8,8 +8,8 @@ from pathlib import Path
 
 TOP = Path(workflow.basedir).parents[1]
 sys.path.insert(0, str(TOP / "runs"))
-from analysis.commands import settings, words
-from analysis.table import named_runs, run_name
+from slipscale.running.commands import settings, words
+from slipscale.running.table import named_runs, run_name
 
 STUDY = TOP / config.get("study", f"{workflow.basedir}/study.yaml")
 config.clear()  # what overrules it is laid over it, so that a null there can take the place of a whole entry
@@ -20,7 +20,7 @@ OUT = config["output"]
 PROGRAMS = TOP / config["programs"]
 JOB = "{SLURM_ARRAY_TASK_ID}/{SLURM_ARRAY_TASK_COUNT}".format_map(
     {"SLURM_ARRAY_TASK_ID": 1, "SLURM_ARRAY_TASK_COUNT": 1, **os.environ})
-ATTEMPT = f"{sys.executable} -m analysis.attempt"
+ATTEMPT = f"{sys.executable} -m slipscale.running.attempt"
 
 # Unbound: several runs at a time would else all be bound to the same first cores.
 os.environ.update(PYTHONPATH=str(TOP / "runs"), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",

@@ -1,9 +1,9 @@
 """Collects the runs of the sweep in one table; run by the Snakefile."""
 
-from analysis.picture import choose_window
-from analysis.reading import History, UnreadableRun
-from analysis.regime import costs, measures
-from analysis.table import collect, write_csv
+from slipscale.measuring.regime import costs, measures
+from slipscale.pictures.picture import choose_window
+from slipscale.reading import History, UnreadableRun
+from slipscale.running.table import collect, write_csv
 
 
 def result(folder, window):

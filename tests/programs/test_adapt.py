@@ -1,4 +1,4 @@
-"""analysis.adapt with `slide`: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
+"""slipscale.adapting.adapt with `slide`: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
 
 import os
 import subprocess
@@ -47,7 +47,7 @@ class Strip(unittest.TestCase):
         """The exit code and adapt.yaml."""
         output = self.folder / f"{truth}_{own}"
         done = subprocess.run(
-            [sys.executable, "-m", "analysis.adapt", self.folder / truth, self.folder / own, "--output", output,
+            [sys.executable, "-m", "slipscale.adapting.adapt", self.folder / truth, self.folder / own, "--output", output,
              "--program", os.environ["SLIPSCALE_SLIDE"], "--window", "200", "400", *words],
             env={**os.environ, "PYTHONPATH": str(RUNS)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.assertIn(done.returncode, (0, 1), done.stdout)

@@ -218,7 +218,7 @@ class Compared(Relocalising):
     def test_picture(self):
         runs = Path(__file__).parents[2] / "runs"
         for choice in ([], ["--statistic", "mean", "--component", "xx"]):
-            done = subprocess.run([sys.executable, "-B", "-m", "analysis.relocalized_picture", "heterogeneous", "out",
+            done = subprocess.run([sys.executable, "-B", "-m", "slipscale.pictures.relocalized_picture", "heterogeneous", "out",
                                    "homogeneous", "picture.png", *choice], cwd=self.folder, capture_output=True,
                                   text=True, env=self.environment(PYTHONPATH=str(runs)), timeout=60)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)

@@ -1,7 +1,7 @@
 """The study of homogenize's accuracy in small: what its table holds, what is run again, and what a failure leaves."""
 
 import studies
-from analysis.convergence import orders_from_errors
+from slipscale.measuring.convergence import orders_from_errors
 
 
 class Accuracy(studies.StudyCase):

@@ -20,12 +20,12 @@ class Equivalence(studies.StudyCase):
             return list(csv.DictReader(file))
 
     def runs(self, model, coefficient, load):
-        from analysis.equivalence import read_run
+        from equivalence.verdict import read_run
         return [read_run(self.out / f"run/{model}_{seed}_small_near_0_{coefficient}_2_{load}_T0.3_cycle", WINDOW)
                 for seed in (1, 2)]
 
     def test_equivalence_and_what_is_run_again(self):
-        from analysis.equivalence import EQUIVALENT, judge, verdict
+        from equivalence.verdict import EQUIVALENT, judge, verdict
         self.run_study()
         runs, points = self.table(), self.verdicts()
         self.assertEqual({row["status"] for row in (*runs, *points)}, {"ok"})

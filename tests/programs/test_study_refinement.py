@@ -7,7 +7,7 @@ import subprocess
 import yaml
 
 import studies
-from analysis.commands import words
+from slipscale.running.commands import words
 
 GEO = """DefineConstant[ h = 1e-3 ];
 Point(1) = {0, 0, 0, h}; Point(2) = {10e-3, 0, 0, h}; Point(3) = {10e-3, 5e-3, 0, h}; Point(4) = {0, 5e-3, 0, h};

@@ -1,0 +1,75 @@
+"""What slipscale.adapting.adapt found, as rows of a study's table."""
+
+from pathlib import Path
+
+import yaml
+
+from contrast.morphologies import COMPOSITE
+from slipscale.running.table import OUTCOME
+
+COMPARED = ("spectrum_distance", "power", "friction", "frequency", "amplitude", "stick", "slip", "open")
+
+WAYS = {"time": "T", "coefficient": "µ", "damping": "damping", "slip_rate": "slip-rate form", "density": "density",
+        "density_time": "density, then T"}
+GOES_ON = ("density_time",)  # ways whose distance before is that after another way
+
+
+def adapted_rows(outcome):
+    """Rows of an outcome.yaml of slipscale.adapting.adapt and the adapt.yaml beside it: one for each level, and one, `nearest`,
+    for the trial whose spectrum came nearest whatever it matched; one row with the reason if there is no adapt.yaml.
+
+    Columns: the options, `level`, status and reason of the level, `value`, `match`, COMPARED as before_ and after_, and
+    the `folder` of the run after.
+    """
+    outcome = Path(outcome)
+    ended = yaml.safe_load(outcome.read_text())
+    options = {**ended["options"], "model": "adapted"}
+    costs = {name: ended[name] for name in OUTCOME if name not in ("status", "reason")}
+    file = outcome.parent / "adapt.yaml"
+    if not file.is_file() or str(ended["reason"]).startswith("the run was not started"):
+        return [{**options, **{name: ended[name] for name in OUTCOME}}]
+    found = yaml.safe_load(file.read_text())
+    before = {f"before_{name}": found["before"][name] for name in COMPARED}
+    rows = []
+    for level, said in found["levels"].items():
+        seen = said.get("surface", {})
+        rows.append({**options, "level": level, "status": said["status"], "reason": said["reason"], **costs,
+                     "value": said.get("value"), "match": said.get("match"), **before, **after(said.get("after")),
+                     **{f"time_seen_{scale}": motion["time_seen"] for scale, motion in seen.items()}})
+    if nearest := found["nearest"]:
+        rows.append({**options, "level": "nearest", "status": "ok", "reason": None, **costs,
+                     "value": nearest["value"], **before, **after(nearest)})
+    return rows
+
+
+def cases_of(rows):
+    """{composite: {(way, level): row}} of adaptations that had a distance before; a composite is (young, diameter, size,
+    seed)."""
+    cases = {}
+    for row in rows:
+        if row["model"] == "adapted" and row.get("before_spectrum_distance") is not None:
+            case = tuple(row[name] for name in COMPOSITE)
+            cases.setdefault(case, {})[row["way"], row["level"]] = row
+    return cases
+
+
+def before_of(case):
+    """The distance of the spectrum before anything was adapted; nan if only later ways are known."""
+    return next((row["before_spectrum_distance"] for (way, _), row in case.items() if way not in GOES_ON), float("nan"))
+
+
+def left_by(case, way):
+    """The distance of the spectrum that the best level of this way left; inf without."""
+    row = best_level(case, way)
+    return row["after_spectrum_distance"] if row else float("inf")
+
+
+def best_level(case, way):
+    """The level of this way whose spectrum came nearest, as a row; or None."""
+    rows = [row for (of, level), row in case.items() if of == way and level != "nearest"
+            and row["after_spectrum_distance"] is not None]
+    return min(rows, key=lambda row: row["after_spectrum_distance"], default=None)
+
+
+def after(found):
+    return {**{f"after_{name}": found[name] for name in COMPARED}, "folder": found["folder"]} if found else {}
