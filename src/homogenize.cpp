@@ -1,10 +1,7 @@
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 
-#include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
@@ -25,18 +22,6 @@ void measure_costs(MPI_Comm comm, Clock::time_point start, Homogenised& found) {
   MPI_Allreduce(MPI_IN_PLACE, &found.memory, 1, MPI_DOUBLE, MPI_SUM, comm);
   found.ranks = ranks_of(comm);
   found.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Sees before the work that there is a place for its result, and leaves it as it is.
-void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
-  std::filesystem::path place = std::filesystem::absolute(folder);
-  std::error_code none;
-  while (!std::filesystem::exists(place, none) && place.has_relative_path()) place = place.parent_path();
-  const bool usable =
-      !is_root(comm) || (std::filesystem::is_directory(place, none) && access(place.c_str(), W_OK) == 0);
-  throw_together(comm, usable ? ""
-                              : "-output_folder '" + folder + "' cannot be written to ('" + place.string() +
-                                    "' is no folder, or not yours); give a folder that you may write to");
 }
 
 std::vector<Material> read_phases(Options& options, const Mesh& mesh) {

@@ -1,7 +1,6 @@
 // Links libgmsh, which is under the GNU General Public License (version 2 or later): so is this program as a
 // whole when it is passed on in binary form. The rest of slipscale does not link it.
 #include <filesystem>
-#include <fstream>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -17,12 +16,10 @@ namespace {
 
 /// Sees before the work that there is a place for its result. Returns whether the folder is new.
 bool make_folder(const std::string& folder) {
+  if (const std::string fault = why_unwritable(folder); !fault.empty()) throw UserError(fault);
   std::error_code code;
   const bool is_new = std::filesystem::create_directories(folder, code);
-  const std::string trial = folder + "/.morphology.partial";
-  if (!std::ofstream(trial))
-    throw UserError("-output_folder '" + folder + "' cannot be written to; name another");
-  std::filesystem::remove(trial, code);
+  if (code) throw UserError("-output_folder '" + folder + "' cannot be created (" + code.message() + ")");
   return is_new;
 }
 

@@ -1,5 +1,6 @@
 #include "slipscale/files/xdmf.hpp"
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/output_folder.hpp"
 
@@ -91,10 +92,8 @@ std::string xdmf_text(const XdmfDocument& document) {
 }
 
 void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
   write_together(comm, path, [&] {
-    if (rank == 0) replace_text_file(path, xdmf_text(document));
+    if (is_root(comm)) replace_text_file(path, xdmf_text(document));
   });
 }
 

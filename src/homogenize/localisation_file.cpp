@@ -15,14 +15,6 @@ namespace {
 constexpr std::array<const char*, load_cases> stress_names{"stress_xx", "stress_yy", "stress_xy"};
 constexpr std::array<const char*, load_cases> strain_names{"xx", "yy", "xy"};
 
-/// What rank 0 alone writes.
-DatasetSlice whole_on_first(MPI_Comm comm, std::vector<hsize_t> shape) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  const hsize_t rows = rank == 0 ? shape[0] : 0;
-  return {std::move(shape), 0, rows};
-}
-
 double area(const Cells& cells, int cell) {
   const auto parts = corner_areas(
       {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))});
@@ -60,12 +52,12 @@ void write_stiffness(MPI_Comm comm, SharedFile& file, const Mesh& mesh,
   };
   for (const Material& material : materials) append(material.stiffness);
   file.write({"/region/stiffness", "Pa", "stiffness of each region; xx, yy, xy with engineering shear"},
-             whole_on_first(comm, {mesh.regions.size(), 3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
+             slice_of_root(comm, {mesh.regions.size(), 3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
              [&](hid_t set) { write_attribute(set, "names", mesh.region_names()); });
   rows.clear();
   append(solution.stiffness);
   file.write({"/effective/stiffness", "Pa", "effective stiffness; xx, yy, xy with engineering shear"},
-             whole_on_first(comm, {3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
+             slice_of_root(comm, {3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
              [&](hid_t set) {
                write_attribute(set, "boundary", name(solution.boundary));
                write_attribute(set, "cell_area", solution.area);

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/solid/mass.hpp"
 #include "summary.hpp"
 
 namespace slipscale {
 namespace {
-
-bool is_root(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank == 0;
-}
 
 /// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
 /// it.
@@ -159,7 +154,7 @@ void Recorder::stop(const std::string& fault) const {
     kept += format(", and the statistics of {} samples", statistics_->samples());
     try {
       statistics_->write(folder_.path());
-    } catch (const UserError& error) {
+    } catch (const RunError& error) {
       kept = error.what();
     }
   }
@@ -170,7 +165,7 @@ void Recorder::share_faults() {
   std::string fault;
   if (history_ && !history_->series().fault().empty()) fault = history_->series().fault();
   if (contact_ && !contact_->series().fault().empty()) fault = contact_->series().fault();
-  throw_together(body_.comm(), fault);
+  stop_together(body_.comm(), fault);
 }
 
 }  // namespace slipscale

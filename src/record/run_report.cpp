@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
 #include "slipscale/files/yaml.hpp"
@@ -12,12 +13,6 @@
 
 namespace slipscale {
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 /// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness,
 /// which is timed here (bulk arrays, damping and boundary nodes make up the rest).
@@ -95,7 +90,7 @@ std::string Recorder::finish() {
   if (statistics_) statistics_->write(folder_.path());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string text;
-  if (rank_of(body_.comm()) == 0)
+  if (is_root(body_.comm()))
     text =
         summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_, seconds});
   folder_.write_text("summary.yaml", text);

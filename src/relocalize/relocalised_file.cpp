@@ -46,10 +46,7 @@ struct RelocalisedFile::File {
 
   /// What every rank knows and rank 0 writes.
   void add(const DatasetDescription& about, std::vector<hsize_t> shape, const double* values) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const hsize_t rows = rank == 0 ? shape[0] : 0;
-    data.write(about, {std::move(shape), 0, rows}, H5T_NATIVE_DOUBLE, values);
+    data.write(about, slice_of_root(comm, std::move(shape)), H5T_NATIVE_DOUBLE, values);
   }
 
   void add(std::size_t number, const LocalHistory& history) {
