@@ -29,8 +29,7 @@ std::vector<OpenStretch> open_stretches(MPI_Comm comm, const Mesh& mesh, const s
         std::min(std::abs(x - mesh.lower[axis]), std::abs(x - mesh.upper[axis])) > little)
       continue;
     // Lower ends count, as far as the seam in the corner lets them be told.
-    const double a = mesh.nodes.position[edge.nodes[0]][along],
-                 b = mesh.nodes.position[edge.nodes[1]][along];
+    const double a = mesh.nodes.position[edge.nodes[0]][along], b = mesh.nodes.position[edge.nodes[1]][along];
     mine.push_back({edge.outward[axis] > 0 ? 1.0 : 0.0, std::min(a, b), std::min(a, b) + length});
   }
   const int ranks = ranks_of(comm), count = static_cast<int>(3 * mine.size());
@@ -57,7 +56,8 @@ bool open_on_both_sides(std::vector<OpenStretch> stretches) {
 /// Where the outer edges of what should be a torus are, and what to do.
 const char* edges_left(const Mesh& mesh) {
   if (mesh.periodic[0] && mesh.periodic[1])
-    return " on sides that are not paired, or in a pore that cuts it in two; make all sides periodic, and let "
+    return " on sides that are not paired, or in a pore that cuts it in two; make all sides periodic, and "
+           "let "
            "holes leave the solid connected along both axes";
   return mesh.periodic[0] || mesh.periodic[1]
              ? " (it is periodic along one axis only); make all sides periodic, or take -cell_boundary kubc "

@@ -5,7 +5,8 @@ namespace {
 
 double area(const CellCorners& x) {
   double twice = 0;
-  for (std::size_t i = 1; i + 1 < x.count; ++i) twice += x.x[i][0] * x.x[i + 1][1] - x.x[i][1] * x.x[i + 1][0];
+  for (std::size_t i = 1; i + 1 < x.count; ++i)
+    twice += x.x[i][0] * x.x[i + 1][1] - x.x[i][1] * x.x[i + 1][0];
   return 0.5 * twice;  // the first corner is the origin
 }
 

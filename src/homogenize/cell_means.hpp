@@ -21,10 +21,10 @@ class CellMeans {
   MPI_Comm comm_;
   const CellSystem& system_;
   const CellOutline& outline_;
-  std::vector<Eigen::Matrix3d> localisation_;                         ///< [local elements]
-  std::vector<Eigen::Matrix<double, 8, load_cases>> displacements_;   ///< likewise, m
+  std::vector<Eigen::Matrix3d> localisation_;                        ///< [local elements]
+  std::vector<Eigen::Matrix<double, 8, load_cases>> displacements_;  ///< likewise, m
   Eigen::Matrix3d stress_ = Eigen::Matrix3d::Zero(), strain_ = Eigen::Matrix3d::Zero(),
-                  hole_strain_ = Eigen::Matrix3d::Zero();             ///< integrals, m² times stress or strain
+                  hole_strain_ = Eigen::Matrix3d::Zero();  ///< integrals, m² times stress or strain
 };
 
 /// What was found per unit stress becomes per unit strain.

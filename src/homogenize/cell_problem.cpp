@@ -101,10 +101,10 @@ std::vector<std::string> locking_regions(MPI_Comm comm, const Mesh& mesh,
 void refuse_mechanism(const Mesh& mesh, const CellSolution& solution) {
   constexpr double nothing = 1e-10;
   if (solution.holes.count > 0 && excess(solution.stiffness, Eigen::Matrix3d::Zero()) < nothing)
-    throw UserError(
-        format("the cell of '{}' bears no load in some direction: its holes leave a mechanism (parts that hang "
-               "by one node, or a pore from side to side); connect the solid",
-               mesh.file));
+    throw UserError(format(
+        "the cell of '{}' bears no load in some direction: its holes leave a mechanism (parts that hang "
+        "by one node, or a pore from side to side); connect the solid",
+        mesh.file));
 }
 
 }  // namespace

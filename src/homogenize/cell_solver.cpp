@@ -12,9 +12,9 @@
 namespace slipscale {
 namespace {
 
-constexpr double tolerance = 1e-10;      ///< of the residual, relative
-constexpr double loosest = 0.1;          ///< of the same, whatever the linear solver is content with
-constexpr double rounding = 1e-13;       ///< of the residual, over the forces of a homogeneous cell
+constexpr double tolerance = 1e-10;  ///< of the residual, relative
+constexpr double loosest = 0.1;      ///< of the same, whatever the linear solver is content with
+constexpr double rounding = 1e-13;   ///< of the residual, over the forces of a homogeneous cell
 constexpr double rounding_unit = 64 * PETSC_MACHINE_EPSILON;  ///< likewise, over what cancels in it
 constexpr PetscInt direct_below = 5000;  ///< unknowns: a factorisation is quicker than multigrid
 constexpr PetscInt most_iterations = 500;
@@ -169,7 +169,8 @@ void CellSolver::complete_choice() {
   petsc(SNESGetKSP(snes_, &ksp));
   petsc(KSPGetPC(ksp, &pc));
   // The norm that SNES looks at.
-  if (is(reinterpret_cast<PetscObject>(ksp), KSPCG) && !given("-ksp_norm_type")) petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
+  if (is(reinterpret_cast<PetscObject>(ksp), KSPCG) && !given("-ksp_norm_type"))
+    petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
   PetscReal linear = 0;
   petsc(KSPGetTolerances(ksp, &linear, nullptr, nullptr, nullptr));
   if (!given("-snes_rtol"))
@@ -196,7 +197,8 @@ std::vector<std::string> CellSolver::idle_options() const {
 
 void CellSolver::refuse_factorisation() const {
   throw UserError(
-      "the stiffness of the cell cannot be factorised (PETSc and MUMPS: singular, or out of memory); look for "
+      "the stiffness of the cell cannot be factorised (PETSc and MUMPS: singular, or out of memory); look "
+      "for "
       "parts that hang by one node or phases of next to no stiffness, take more memory or ranks, or try "
       "-cell_ksp_type cg -cell_pc_type gamg");
 }
@@ -217,8 +219,9 @@ void CellSolver::refuse(int load_case, const CaseCost& cost, SNESConvergedReason
   } else {
     why += format(" after {} Newton steps", static_cast<int>(cost.newton_steps));
     cure = "one step is enough where the linear solver does its work: leave the options -cell_snes_ out";
-    cure += direct ? ", or be content with a larger residual (-cell_snes_rtol 1e-6)"
-                   : " and see -cell_ksp_converged_reason, or try -cell_pc_type cholesky -cell_ksp_type preonly";
+    cure += direct
+                ? ", or be content with a larger residual (-cell_snes_rtol 1e-6)"
+                : " and see -cell_ksp_converged_reason, or try -cell_pc_type cholesky -cell_ksp_type preonly";
   }
   throw UserError(
       format("the cell problem under unit load {} did not converge ({}); {}", cases[load_case], why, cure));

@@ -45,9 +45,8 @@ void describe_phases(MPI_Comm comm, const Mesh& mesh, const std::vector<Material
     found.phases.push_back({mesh.regions[k].name, mesh.regions[k].area / solution.area, materials[k]});
   found.phase_means = phase_means(comm, mesh, solution);
   if (solution.holes.count == 0) return;
-  found.phases.push_back({name_of_holes(mesh),
-                          solution.holes.area / solution.area,
-                          {Eigen::Matrix3d::Zero(), 0, "empty"}});
+  found.phases.push_back(
+      {name_of_holes(mesh), solution.holes.area / solution.area, {Eigen::Matrix3d::Zero(), 0, "empty"}});
   found.phase_means.push_back(solution.holes.localisation);
 }
 

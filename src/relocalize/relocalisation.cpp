@@ -72,7 +72,8 @@ void Relocalisation::macroscopic_roots(std::span<const PlaneCovariance> macro_ce
     macro_roots_.push_back(square_root(covariance).entries);
   roots_.resize(at_places.size());
   recovery_(std::span<const PlaneCovariance>(macro_roots_), roots_);
-  std::ranges::transform(roots_, at_places.begin(), [](const PlaneCovariance& r) { return CovarianceRoot{r}; });
+  std::ranges::transform(roots_, at_places.begin(),
+                         [](const PlaneCovariance& r) { return CovarianceRoot{r}; });
 }
 
 void Relocalisation::strain(std::span<const PlaneTensor> macroscopic, std::span<PlaneTensor> local) const {

@@ -1,5 +1,6 @@
 #include "slipscale/relocalize/relocalised_file.hpp"
 
+#include "slipscale/base/finite.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
@@ -40,6 +41,7 @@ struct RelocalisedFile::File {
 
   void add(const std::string& name, const char* units, const std::string& text,
            std::span<const PlaneTensor> rows) {
+    stop_unless_finite(comm, {rows.empty() ? nullptr : rows.front().data(), 3 * rows.size()}, text);
     data.write({frame_path(times.size()) + name, units, text + "; xx, yy and xy"}, image.cells(), {3},
                rows.empty() ? nullptr : rows.front().data());
   }

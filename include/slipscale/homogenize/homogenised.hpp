@@ -49,8 +49,8 @@ std::vector<std::string> doubts(const Homogenised& found);
 std::string describe(const Homogenised& found);
 
 /// effective.yaml: `stiffness` [c11, c22, c12, c66, c16, c26] in Pa and `density`, which `slide` reads with
-/// -material_file, `doubt` where there is any, and everything else of the report nested under `homogenize`, with the options `effective`
-/// under `homogenize: options:`.
+/// -material_file, `doubt` where there is any, and everything else of the report nested under `homogenize`,
+/// with the options `effective` under `homogenize: options:`.
 std::string effective_yaml(const Homogenised& found, const std::map<std::string, std::string>& effective);
 
 }  // namespace slipscale

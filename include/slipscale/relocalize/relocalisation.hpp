@@ -20,7 +20,7 @@ struct LocalisationTensors {
   std::vector<Eigen::Matrix3d> stiffness;               ///< C of each region, Pa
   Eigen::Matrix3d effective = Eigen::Matrix3d::Zero();  ///< C_eff, Pa
   std::string boundary;                                 ///< periodic, kubc or subc
-  double unit_area = 0;                                 ///< of the homogenised cell, holes included, m²
+  double hole_area = 0;                                 ///< of all holes of the homogenised cell, m²
   std::string mesh_checksum;                            ///< of its mesh file; empty in files that do not say
 };
 

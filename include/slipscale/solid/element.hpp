@@ -19,8 +19,8 @@ using StrainDisplacement = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMa
 ElementStiffness element_stiffness(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity);
 
 /// The same with the cell's mean dilatation in place of that at each Gauss point (B-bar: Nagtegaal, Parks and
-/// Rice, Comput. Methods Appl. Mech. Engng 4 (1974) 153; Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413): a
-/// quadrilateral that does not lock where the solid is nearly incompressible. A linear triangle has but one
+/// Rice, Comput. Methods Appl. Mech. Engng 4 (1974) 153; Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413):
+/// a quadrilateral that does not lock where the solid is nearly incompressible. A linear triangle has but one
 /// dilatation, so its stiffness is the same, and it locks.
 ElementStiffness mean_dilatation_stiffness(std::span<const Vector2> corners,
                                            const Eigen::Matrix3d& elasticity);
