@@ -29,7 +29,8 @@ bool enlarge_workspace(KSP ksp) {
   petsc(MatMumpsSetIcntl(factor, 14, std::max(least_workspace, 2 * percent)));
   petsc(MatFactorClearError(factor));
   petsc(KSPGetOperators(ksp, &matrix, nullptr));
-  petsc(PetscObjectStateIncrease(reinterpret_cast<PetscObject>(matrix)));  // or nothing is factorised again
+  petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));  // counts as a new matrix, or nothing is done again
+  petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
   return true;
 }
 
