@@ -95,7 +95,9 @@ std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases
   }
   const auto [k_least, k_most] = std::minmax(k[0], k[1]);
   const auto [g_least, g_most] = std::minmax(g[0], g[1]);
-  const auto reference = [](double bulk, double shear) { return bulk * shear / (bulk + 2 * shear); };
+  const auto reference = [](double bulk, double shear) {
+    return shear > 0 ? bulk * shear / (bulk + 2 * shear) : 0;  // a hole has neither
+  };
   return HashinShtrikman{mixed(k, fraction, g_least), mixed(k, fraction, g_most),
                          mixed(g, fraction, reference(k_least, g_least)),
                          mixed(g, fraction, reference(k_most, g_most))};

@@ -140,6 +140,7 @@ std::string verdict(const Homogenised& found, double value, double low, double h
   if (outside <= rounding * value) return "ok";
   if (outside <= bar) return "ok within the error bar";
   const std::string by = format(" by {:.1e}", outside / value);
+  if (outside <= 2 * bar) return "outside" + by + ", twice the error bar at most";  // it is an estimate
   if (found.solutions.front().boundary != CellBoundary::periodic)
     return "outside" + by + ", as " + name(found.solutions.front().boundary) + " may be";
   if (found.refined.empty() && outside < 0.01 * value)

@@ -13,10 +13,9 @@ namespace slipscale {
 namespace {
 
 /// Of a run that took them. Throws UserError when they are damaged.
-std::optional<StatisticsReader> statistics_of(MPI_Comm comm, const FieldsReader& run,
-                                              const std::string& option) {
-  if (!has_statistics(comm, run.folder())) return std::nullopt;
-  return std::optional<StatisticsReader>(std::in_place, comm, run.folder(), option);
+void read_statistics(MPI_Comm comm, const FieldsReader& run, const std::string& option,
+                     std::optional<StatisticsReader>& found) {
+  if (has_statistics(comm, run.folder())) found.emplace(comm, run.folder(), option);
 }
 
 /// Largest |σ − C : ε| over the largest |σ| of the last frame, `stiffness` by region; absent without both.
@@ -87,11 +86,11 @@ RelocalisationSources::RelocalisationSources(MPI_Comm comm, const Relocalisation
     : run(comm, choice.run), tensors(read_localisation(comm, choice.tensors)) {
   run.require("strain");
   if (choice.reference) reference.emplace(comm, choice.reference->folder, "relocalize_reference");
-  statistics = statistics_of(comm, run, "relocalize_run");
+  read_statistics(comm, run, "relocalize_run", statistics);
   if (!statistics) return;
   mean_strain = strain_statistics(*statistics, run.grid());
   if (!reference) return;
-  reference_statistics = statistics_of(comm, *reference, "relocalize_reference");
+  read_statistics(comm, *reference, "relocalize_reference", reference_statistics);
   if (reference_statistics) StressComparison::refuse_other_window(*reference_statistics, *statistics);
 }
 
