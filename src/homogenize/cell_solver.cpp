@@ -16,7 +16,8 @@ constexpr double tolerance = 1e-10;  ///< of the residual, relative
 constexpr double loosest = 0.1;      ///< of the same, whatever the linear solver is content with
 constexpr double rounding = 1e-13;   ///< of the residual, over the forces of a homogeneous cell
 constexpr double rounding_unit = 64 * PETSC_MACHINE_EPSILON;  ///< likewise, over what cancels in it
-constexpr PetscInt direct_below = 5000;  ///< unknowns: a factorisation is quicker than multigrid
+constexpr PetscInt direct_below = 5000;  ///< unknowns: a factorisation is quicker than multigrid; and nearly
+                                         ///< incompressible phases are none for multigrid
 constexpr PetscInt most_iterations = 500;
 
 using Clock = std::chrono::steady_clock;
@@ -149,7 +150,7 @@ void CellSolver::choose_solver() {
   petsc(SNESGetKSP(snes_, &ksp));
   petsc(KSPGetPC(ksp, &pc));
   petsc(KSPSetTolerances(ksp, tolerance, rounding * force_, PETSC_DEFAULT, most_iterations));
-  if (unknowns < direct_below) {
+  if (unknowns < direct_below || system_.is_nearly_incompressible()) {
     petsc(KSPSetType(ksp, KSPPREONLY));
     petsc(PCSetType(pc, PCCHOLESKY));
     petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));

@@ -44,6 +44,8 @@ OwnedVec CellSystem::vector() const {
   return vec;
 }
 
+bool CellSystem::is_nearly_incompressible() const { return std::ranges::count(locks_, 1) > 0; }
+
 ElementStiffness CellSystem::stiffness(int element) const {
   const int region = mesh_.cells.region[element];
   const CellCorners seen = corners(element);

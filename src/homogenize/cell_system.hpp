@@ -60,6 +60,7 @@ class CellSystem {
   ElementStiffness stiffness(int element) const;
 
   const Mesh& mesh() const { return mesh_; }
+  bool is_nearly_incompressible() const;  ///< one of the phases, at least
   const Material& material(int element) const { return materials_[mesh_.cells.region[element]]; }
 
  private:
