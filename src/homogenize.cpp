@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "commit.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
@@ -38,8 +39,7 @@ void homogenize(Options& options) {
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = homogenisation_mesh(comm, choice);
   const std::vector<Material> materials = read_phases(options, mesh);
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
 
   Homogenised found = homogenise(comm, choice, mesh, materials, [&](const CellSolution& first) {
     for (const std::string& idle : first.idle_options)
@@ -63,5 +63,8 @@ int main(int argc, char** argv) {
       {"homogenize",
        "Effective stiffness and localisation tensors of a periodic cell or a whole block in plane "
        "strain, from three static load cases by SNES and KSP (prefix -cell_).",
-       mesh_schema() + material_schema() + homogenisation_schema(), homogenize});
+       mesh_schema() + material_schema() + homogenisation_schema(),
+       homogenize,
+       commit,
+       {"cell_"}});
 }

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "commit.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
@@ -20,8 +21,7 @@ namespace {
 void relocalize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const RelocalisationChoice choice = read_relocalisation(options);
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
 
   // Both scales, and where their meshes meet.
   const RelocalisationSources sources(comm, choice);
@@ -79,5 +79,5 @@ int main(int argc, char** argv) {
       {"relocalize",
        "Stress and strain of the phases over time, C : A : E, from a homogeneous run of slide and the "
        "localisation tensors of homogenize; compared with a heterogeneous run where there is one.",
-       relocalisation_schema(), relocalize});
+       relocalisation_schema(), relocalize, commit});
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 namespace {
 
@@ -25,9 +27,7 @@ PetscErrorCode keep_message(MPI_Comm comm, int line, const char* function, const
 
 /// The text of the lowest rank that has one; empty when none has. Collective.
 std::string first_fault(MPI_Comm comm, std::string fault) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
+  const int rank = rank_of(comm), size = ranks_of(comm);
   int speaker = fault.empty() ? size : rank;
   MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
   if (speaker == size) return "";

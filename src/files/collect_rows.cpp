@@ -1,4 +1,4 @@
-#include "collect_rows.hpp"
+#include "slipscale/files/collect_rows.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -38,13 +38,14 @@ void collect_rows(MPI_Comm comm, const RowRange& mine, const void* rows,
   if (mine.count > 0) take(mine.begin, mine.count, rows);
   std::vector<std::byte> piece;
   for (int rank = 1; rank < ranks; ++rank)
-    for_pieces({all[2 * static_cast<std::size_t>(rank)], all[2 * static_cast<std::size_t>(rank) + 1], mine.bytes},
-               [&](std::uint64_t begin, std::uint64_t count) {
-                 piece.resize(count * mine.bytes);
-                 MPI_Recv(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, rank, tag, comm,
-                          MPI_STATUS_IGNORE);
-                 take(begin, count, piece.data());
-               });
+    for_pieces(
+        {all[2 * static_cast<std::size_t>(rank)], all[2 * static_cast<std::size_t>(rank) + 1], mine.bytes},
+        [&](std::uint64_t begin, std::uint64_t count) {
+          piece.resize(count * mine.bytes);
+          MPI_Recv(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, rank, tag, comm,
+                   MPI_STATUS_IGNORE);
+          take(begin, count, piece.data());
+        });
 }
 
 }  // namespace slipscale

@@ -1,4 +1,4 @@
-#include "disk_space.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -40,7 +40,8 @@ void refuse_above_limit(std::uint64_t size) {
 }  // namespace
 
 std::string write_fault(const std::string& path, const std::string& reason) {
-  return path + " cannot be written: " + reason + "; see that -output_folder is writable and its disk has room";
+  return path + " cannot be written: " + reason +
+         "; see that -output_folder is writable and its disk has room";
 }
 
 void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t bytes) {
@@ -49,7 +50,8 @@ void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t by
   int reason = 0;
   {
     const File file(path);
-    if (fallocate(file, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(from), static_cast<off_t>(bytes)) == 0) return;
+    if (fallocate(file, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(from), static_cast<off_t>(bytes)) == 0)
+      return;
     reason = errno;
   }
   if (reason == EOPNOTSUPP || reason == ENOSYS)
@@ -61,7 +63,7 @@ void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t by
 void fill_with_zeros(const std::string& path, std::uint64_t size) {
   refuse_above_limit(size);
   const File file(path);
-  struct stat status{};
+  struct stat status {};
   if (fstat(file, &status) != 0) throw LibraryError(std::strerror(errno));
   const auto old = static_cast<std::uint64_t>(status.st_size);
   const std::vector<char> zeros(std::size_t{1} << 20, 0);

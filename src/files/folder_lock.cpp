@@ -23,7 +23,8 @@ int open_file(const std::string& path) {
 
 /// Whether the file is still the one of that name: its last owner removes it.
 bool still_there(int file, const std::string& path) {
-  struct stat opened{}, named{};
+  struct stat opened {
+  }, named{};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
          opened.st_dev == named.st_dev;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
 
 namespace slipscale {
 namespace {
@@ -38,8 +40,22 @@ void keep_hdf5_messages() { (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 Hdf5File create_file(const std::string& path) {
   const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
   hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
-  return Hdf5File(
-      hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
+  Hdf5File file(hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
+  write_provenance(file);
+  return file;
+}
+
+void write_provenance(hid_t file) {
+  const Provenance from = provenance();
+  write_attribute(file, "program", from.program);
+  write_attribute(file, "version", from.version);
+  if (!from.commit.empty()) write_attribute(file, "commit", from.commit);
+  write_attribute(file, "date", from.date);
+  write_attribute(file, "ranks", static_cast<std::int64_t>(from.ranks));
+}
+
+std::string checksum_text(std::uint64_t checksum) {
+  return format("fnv1a:{:016x}", static_cast<unsigned long long>(checksum));
 }
 
 void cut_off(hid_t file) {

@@ -29,6 +29,9 @@ hsize_t write_cells(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
 }  // namespace
 
 MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
+  if (image.checksum() != 0)
+    file.describe(
+        "/", [&](hid_t root) { write_attribute(root, "mesh_checksum", checksum_text(image.checksum())); });
   const std::array box{image.block().lower, image.block().upper};
   file.write({"/mesh/block", "m", "lower left and upper right corner of the whole block; x and y"},
              slice_of_root(comm, {2, 2}), H5T_NATIVE_DOUBLE, box.front().data());

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
+#include "slipscale/files/disk_space.hpp"
 #include "slipscale/files/folder_lock.hpp"
 
 namespace slipscale {
@@ -76,7 +76,8 @@ void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
 
 OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced)
     : comm_(comm), path_(folder) {
-  // Past a limit on the size of files a write then fails with words, and the process is not ended by a signal.
+  // Past a limit on the size of files a write then fails with words, and the process is not ended by a
+  // signal.
   (void)std::signal(SIGXFSZ, SIG_IGN);
   throw_together(comm, is_root(comm) ? prepare(folder, replaced, lock_) : "");
 }

@@ -6,8 +6,8 @@
 #include <functional>
 #include <numeric>
 
-#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
 namespace {
@@ -68,7 +68,8 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
                     const std::string& description, Storage storage) {
   const hsize_t entries =
       std::accumulate(row_shape.begin(), row_shape.end(), hsize_t{1}, std::multiplies<>());
-  Column column{path, row_shape, storage, entries * (storage == Storage::byte ? 1 : sizeof(double)), 0, {}, {}};
+  Column column{path, row_shape, storage, entries * (storage == Storage::byte ? 1 : sizeof(double)),
+                0,    {},        {}};
   guarded("", [&] {
     if (rows_ > 0) throw LibraryError("'" + path + "' was declared after the first row");
     const hsize_t rows_per_chunk = rows_in_chunk(expected_rows_, column.bytes);
@@ -86,6 +87,10 @@ void SeriesFile::constant(const std::string& path, const double* values, const s
                           const std::string& units, const std::string& description) {
   const auto count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
   constants_.push_back({path, shape, units, description, {values, values + count}});
+}
+
+void SeriesFile::about(const std::string& name, const std::string& text) {
+  guarded("", [&] { write_attribute(file_, name, text); });
 }
 
 void SeriesFile::write_constants() {
@@ -140,7 +145,8 @@ void SeriesFile::flush() {
 void SeriesFile::reserve() {
   hsize_t size = 0, bytes = 0;
   hdf5(H5Fget_filesize(file_, &size), "size");
-  for (const Column& column : columns_) bytes += column.batch.size() + column.chunk + column.bytes + index_bytes;
+  for (const Column& column : columns_)
+    bytes += column.batch.size() + column.chunk + column.bytes + index_bytes;
   if (written_ == 0) bytes += header_bytes * columns_.size();
   for (const Constant& each : constants_) bytes += header_bytes + sizeof(double) * each.values.size();
   reserve_space(path_, size, bytes);

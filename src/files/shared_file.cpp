@@ -7,10 +7,10 @@
 #include <functional>
 #include <numeric>
 
-#include "collect_rows.hpp"
-#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
+#include "slipscale/files/collect_rows.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
 namespace {
@@ -26,6 +26,16 @@ void write_rows(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t begin,
   const Hdf5Space source(hdf5(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), what));
   hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
   hdf5(H5Dwrite(dataset, type, source, target, H5P_DEFAULT, rows), what);
+}
+
+/// Of a dataset of this shape one entry of every row.
+Hdf5Space column_of(const std::vector<hsize_t>& shape, std::size_t entry, const std::string& what) {
+  Hdf5Space space(hdf5(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), what));
+  std::vector<hsize_t> start(shape.size(), 0), size(shape.size(), 1);
+  size[0] = shape[0];
+  for (std::size_t d = shape.size(); d-- > 1; entry /= shape[d]) start[d] = entry % shape[d];
+  hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
+  return space;
 }
 
 std::size_t row_bytes(const std::vector<hsize_t>& shape, hid_t type) {
@@ -146,6 +156,27 @@ void SharedFile::append(const std::string& series, double value) {
     hdf5(H5Dset_extent(dataset, &longer), series);
     write_rows(dataset, {longer}, length, 1, H5T_NATIVE_DOUBLE, &value, series);
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
+  });
+}
+
+void SharedFile::write_view(const DatasetDescription& about, const DatasetView& view) {
+  on_root([&] {
+    const std::string& what = about.path;
+    const int rank = static_cast<int>(view.shape.size());
+    const Hdf5Properties creation(hdf5(H5Pcreate(H5P_DATASET_CREATE), what));
+    for (const DatasetView::Entry& entry : view.entries) {
+      std::vector<hsize_t> from{view.shape[0]};
+      from.insert(from.end(), entry.row.begin(), entry.row.end());
+      const Hdf5Space target = column_of(view.shape, entry.to, what),
+                      source = column_of(from, entry.at, what);
+      hdf5(H5Pset_virtual(creation, target, ".", entry.from.c_str(), source), what);
+    }
+    const Hdf5Space space(hdf5(H5Screate_simple(rank, view.shape.data(), nullptr), what));
+    const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), what));
+    hdf5(H5Pset_create_intermediate_group(links, 1), what);
+    const Hdf5Dataset dataset(
+        hdf5(H5Dcreate2(file_, what.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), what));
+    describe_dataset(dataset, about.units, about.text);
   });
 }
 

@@ -38,11 +38,11 @@ PetscErrorCode converged(SNES snes, PetscInt step, PetscReal, PetscReal, PetscRe
                          SNESConvergedReason* reason, void* system) {
   PetscFunctionBeginUser;
   PetscCall(SNESConvergedDefault(snes, step, 0, 0, residual, reason, nullptr));
-  if (*reason != SNES_CONVERGED_ITERATING) PetscFunctionReturn(0);
+  if (*reason != SNES_CONVERGED_ITERATING) PetscFunctionReturn(PetscErrorCode{});
   PetscReal size = 0;
   PetscCall(static_cast<CellSystem*>(system)->cancelling_forces(&size));
   if (residual <= rounding_unit * size) *reason = SNES_CONVERGED_FNORM_ABS;
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 bool given(const char* option) {

@@ -61,10 +61,9 @@ Vector2 CellSystem::homogeneous(const Vector2& corner) const {
 OwnedMat CellSystem::matrix() const {
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(mesh_.nodes.owned));
   for (int element = 0; element < mesh_.cells.size(); ++element) {
-    const int *begin = mesh_.cells.corner_nodes.data() + mesh_.cells.first[element],
-              *end = mesh_.cells.corner_nodes.data() + mesh_.cells.first[element + 1];
-    for (const int* row = begin; row != end; ++row)
-      if (*row < mesh_.nodes.owned) neighbours[*row].insert(neighbours[*row].end(), begin, end);
+    const auto nodes = mesh_.cells.nodes_of(element);
+    for (const int row : nodes)
+      if (row < mesh_.nodes.owned) neighbours[row].insert(neighbours[row].end(), nodes.begin(), nodes.end());
   }
   std::vector<PetscInt> here, beyond;
   for (auto& list : neighbours) {
@@ -139,7 +138,7 @@ PetscErrorCode CellSystem::residual(Vec u, Vec out) {
     if (held_[k]) force[k] = cancelling_[k] = 0;
   PetscCall(VecRestoreArrayWrite(out, &force));
   PetscCall(VecRestoreArrayRead(local_, &values));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 PetscErrorCode CellSystem::cancelling_forces(PetscReal* size) const {
@@ -148,7 +147,7 @@ PetscErrorCode CellSystem::cancelling_forces(PetscReal* size) const {
   for (const double force : cancelling_) squares += force * force;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &squares, 1, MPI_DOUBLE, MPI_SUM, comm_));
   *size = std::sqrt(squares);
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 PetscErrorCode CellSystem::jacobian(Mat matrix) const {
@@ -172,7 +171,7 @@ PetscErrorCode CellSystem::jacobian(Mat matrix) const {
     if (held_[k]) rows.push_back(2 * offset_ + static_cast<PetscInt>(k));
   PetscCall(
       MatZeroRowsColumns(matrix, static_cast<PetscInt>(rows.size()), rows.data(), scale_, nullptr, nullptr));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 OwnedMatNullSpace CellSystem::rigid_motions() const {

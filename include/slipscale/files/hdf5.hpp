@@ -45,9 +45,16 @@ using Hdf5Attribute = Hdf5Handle<H5Aclose>;
 void keep_hdf5_messages();
 
 /// A new file, over an older one. A killed run must leave a readable file, and a running one must let readers
-/// in: the oldest format (files written with the latest were unreadable after a kill), no file locking, serial
-/// driver.
+/// in: the oldest format (files written with the latest were unreadable after a kill), no file locking,
+/// serial driver. It says at once where it comes from (`write_provenance`).
 Hdf5File create_file(const std::string& path);
+
+/// Attributes of the root group: program, version, commit (where built from git), date (UTC, of the start)
+/// and ranks. They stand apart from the datasets, which are the same on any number of ranks.
+void write_provenance(hid_t file);
+
+/// "fnv1a:" and 16 hexadecimal digits, as run.yaml and the root attribute mesh_checksum have it.
+std::string checksum_text(std::uint64_t checksum);
 
 /// Cuts a file of the serial driver off from the disk, after a write that failed: what HDF5 still wants to
 /// write, on closing at the latest, goes nowhere, so that the file stays as the last flush left it and HDF5

@@ -13,16 +13,16 @@ namespace slipscale {
 ///
 /// Lives on one rank. Rows gather in memory and go to the disk in batches, all datasets by the same number of
 /// rows, so that a running job can be plotted and a killed one read: serial driver, default file format, no
-/// file locking. Room is set aside before each batch, so that a full disk, or a file that somebody removed, is
-/// found before HDF5 stumbles over it. Nothing here throws, because the other ranks would wait for ever: a failure is kept in
-/// `fault`, which the caller shares with them (`throw_together`) when it suits, and after which all members
-/// do nothing.
+/// file locking. Room is set aside before each batch, so that a full disk, or a file that somebody removed,
+/// is found before HDF5 stumbles over it. Nothing here throws, because the other ranks would wait for ever: a
+/// failure is kept in `fault`, which the caller shares with them (`throw_together`) when it suits, and after
+/// which all members do nothing.
 class SeriesFile {
  public:
   enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
 
-  /// Creates the file, over an older one. `expected_rows`: chunks need not be larger. The first row is written
-  /// at once, then a batch when `seconds` have passed since the last, or more where writing is slow.
+  /// Creates the file, over an older one. `expected_rows`: chunks need not be larger. The first row is
+  /// written at once, then a batch when `seconds` have passed since the last, or more where writing is slow.
   explicit SeriesFile(std::string path, double seconds = 0.5, double expected_rows = 1e15);
   ~SeriesFile();
   SeriesFile(SeriesFile&&) = default;
@@ -36,6 +36,9 @@ class SeriesFile {
   /// What does not grow, written with the first row: `values` has the given shape. Before the first row.
   void constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
                 const std::string& units, const std::string& description);
+
+  /// A text about the whole file, an attribute of its root group. Before the first row.
+  void about(const std::string& name, const std::string& text);
 
   /// One row of a quantity; every quantity must be given one before `end_row`.
   void append(int id, const double* row);

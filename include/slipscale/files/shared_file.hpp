@@ -31,14 +31,27 @@ DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row)
 /// All rows on rank 0, none elsewhere.
 DatasetSlice slice_of_root(MPI_Comm comm, std::vector<hsize_t> shape);
 
+/// Rows made of others' columns: entry `to` of each row, counted through its shape, shows entry `at` of the
+/// rows of the dataset `from`, which have the shape `row` ({} a number). Entries that nothing fills are 0.
+struct DatasetView {
+  struct Entry {
+    std::size_t to;
+    std::string from;
+    std::vector<hsize_t> row;
+    std::size_t at;
+  };
+  std::vector<hsize_t> shape;  ///< rows first
+  std::vector<Entry> entries;
+};
+
 /// HDF5's name of PetscInt in memory and in files.
 hid_t index_type();
 
 /// An HDF5 file of data that lie on all ranks.
 ///
-/// Rank 0 writes it, with HDF5's serial driver; the others send it their rows, a few MiB at a time. No call of
-/// HDF5 is collective, so a failure, which only the writing rank can see, leaves nobody waiting: it is told
-/// to all before anything else is sent, and throws `RunError` on all. (MPI-IO offers no such guard: an
+/// Rank 0 writes it, with HDF5's serial driver; the others send it their rows, a few MiB at a time. No call
+/// of HDF5 is collective, so a failure, which only the writing rank can see, leaves nobody waiting: it is
+/// told to all before anything else is sent, and throws `RunError` on all. (MPI-IO offers no such guard: an
 /// error of one rank unwinds into a collective close.) All members are collective.
 class SharedFile {
  public:
@@ -63,6 +76,10 @@ class SharedFile {
   /// Declares a list of numbers that grows by `append`, which takes rank 0's value.
   void add_series(const DatasetDescription& about);
   void append(const std::string& series, double value);
+
+  /// A dataset without data of its own: columns of others as entries of a larger row (HDF5's virtual
+  /// dataset). For readers that want tensors where we keep less.
+  void write_view(const DatasetDescription& about, const DatasetView& view);
 
   /// A second path to a dataset.
   void link(const std::string& from, const std::string& to);
