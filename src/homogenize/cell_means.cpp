@@ -1,14 +1,9 @@
 #include "cell_means.hpp"
 
+#include "slipscale/mesh/shape_functions.hpp"
+
 namespace slipscale {
 namespace {
-
-double area(const CellCorners& x) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < x.count; ++i)
-    twice += x.x[i][0] * x.x[i + 1][1] - x.x[i][1] * x.x[i + 1][0];
-  return 0.5 * twice;  // the first corner is the origin
-}
 
 /// ∫ ε dA of what an edge with outward normal n (times its length) bounds, of the edge's mean displacement.
 Eigen::Vector3d from_edge(double ux, double uy, const Vector2& n) {
@@ -52,7 +47,7 @@ void CellMeans::add(int k) {
     const CellCorners corners = system_.corners(element);
     const CellSystem::Displacements u = system_.displacements(element);
     const Eigen::Vector3d integral = strain_integral(corners, u);
-    localisation_[element].col(k) = integral / area(corners);
+    localisation_[element].col(k) = integral / cell_area(corners);
     displacements_[element].col(k).head(u.size()) = u;
     if (!mesh.cells.owned[element]) continue;
     strain_.col(k) += integral;
@@ -101,7 +96,7 @@ std::vector<Eigen::Matrix3d> phase_means(MPI_Comm comm, const Mesh& mesh, const 
   std::vector<Eigen::Matrix3d> means(mesh.regions.size(), Eigen::Matrix3d::Zero());
   for (int element = 0; element < mesh.cells.size(); ++element)
     if (mesh.cells.owned[element])
-      means[mesh.cells.region[element]] += area(seen_corners(mesh, element)) * solution.localisation[element];
+      means[mesh.cells.region[element]] += cell_area(seen_corners(mesh, element)) * solution.localisation[element];
   for (std::size_t k = 0; k < means.size(); ++k) {
     add_all(comm, means[k]);
     means[k] /= mesh.regions[k].area;

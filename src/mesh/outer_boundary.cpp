@@ -84,21 +84,6 @@ std::optional<Vector2> unmatched_edge(const Mesh& mesh) {
   return std::nullopt;
 }
 
-PetscInt holes(MPI_Comm comm, const Mesh& mesh, const std::vector<OuterEdge>& outer) {
-  // Each cell has as many edges as corners, and shares all but the outer ones with another.
-  PetscInt sides = 0, open = 0;
-  for (int cell = 0; cell < mesh.cells.size(); ++cell)
-    if (mesh.cells.owned[cell]) sides += mesh.cells.corner_count(cell);
-  for (const OuterEdge& edge : outer) {
-    const auto [a, b] = edge.nodes;
-    open += (mesh.nodes.number[a] < mesh.nodes.number[b] ? a : b) < mesh.nodes.owned;
-  }
-  std::array<PetscInt, 2> sums{sides, open};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPIU_INT, MPI_SUM, comm);
-  const PetscInt edges = (sums[0] + sums[1]) / 2;
-  return 1 - (mesh.nodes.total - edges + mesh.cells.total);  // Euler
-}
-
 namespace {
 
 /// Gives every corner of the cell the lowest number among them. Returns whether one changed.

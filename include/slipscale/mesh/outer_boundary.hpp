@@ -21,9 +21,6 @@ std::vector<OuterEdge> outer_edges(const Mesh& mesh);
 /// seam.
 std::optional<Vector2> unmatched_edge(const Mesh& mesh);
 
-/// Number of holes of a mesh of one part. `outer` are the outer edges, not none. Collective.
-PetscInt holes(MPI_Comm comm, const Mesh& mesh, const std::vector<OuterEdge>& outer);
-
 /// Number of parts of the mesh that share no node. Collective.
 int connected_parts(MPI_Comm comm, const Mesh& mesh);
 
