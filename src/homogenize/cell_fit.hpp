@@ -5,8 +5,8 @@
 
 namespace slipscale {
 
-/// Throws UserError when the mesh does not fit the boundary condition: periodic needs a torus whose sides are
-/// paired and match, the others an open boundary, all of them a body of one part. Collective.
+/// Throws UserError when the mesh does not fit the boundary condition: periodic needs a torus, the others an
+/// open boundary. (That it is a body of one part whose sides match is seen when it is read.) Collective.
 void refuse_unfit(MPI_Comm comm, const Mesh& mesh, CellBoundary boundary,
                   const std::vector<OuterEdge>& outer);
 

@@ -17,8 +17,8 @@ struct CellOutline {
   double hole_area = 0;                   ///< m², likewise
 };
 
-/// Throws UserError when the mesh does not fit the boundary condition: periodic needs a torus whose sides are
-/// paired and match, the others an outside, all of them a body of one part. Collective.
+/// Throws UserError when the mesh does not fit the boundary condition: periodic needs a torus that no pore
+/// goes around, the others an outside. Collective.
 CellOutline cell_outline(MPI_Comm comm, const Mesh& mesh, CellBoundary boundary);
 
 }  // namespace slipscale
