@@ -96,7 +96,8 @@ std::vector<Eigen::Matrix3d> phase_means(MPI_Comm comm, const Mesh& mesh, const 
   std::vector<Eigen::Matrix3d> means(mesh.regions.size(), Eigen::Matrix3d::Zero());
   for (int element = 0; element < mesh.cells.size(); ++element)
     if (mesh.cells.owned[element])
-      means[mesh.cells.region[element]] += cell_area(seen_corners(mesh, element)) * solution.localisation[element];
+      means[mesh.cells.region[element]] +=
+          cell_area(seen_corners(mesh, element)) * solution.localisation[element];
   for (std::size_t k = 0; k < means.size(); ++k) {
     add_all(comm, means[k]);
     means[k] /= mesh.regions[k].area;
