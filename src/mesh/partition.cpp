@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
@@ -112,8 +113,7 @@ std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, c
 }  // namespace
 
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
+  const int ranks = ranks_of(comm);
   if (ranks == 1) return;
   const std::vector<PetscInt> part = parts(comm, partitioner, ranks, whole);
   std::vector<PetscInt> sizes(static_cast<std::size_t>(ranks), 0), points(part.size());

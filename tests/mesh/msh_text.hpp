@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scenes.hpp"
+#include "slipscale/base/parallel.hpp"
 
 namespace slipscale::testing_support {
 
@@ -41,9 +42,7 @@ std::string binary(const std::string& text);
 /// Writes a file on rank 0 for all; the name is new for every call.
 inline std::string written(const std::string& bytes) {
   const std::string path = scratch("case.msh");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) std::ofstream(path, std::ios::binary) << bytes;
+  if (is_root(PETSC_COMM_WORLD)) std::ofstream(path, std::ios::binary) << bytes;
   MPI_Barrier(PETSC_COMM_WORLD);
   return path;
 }

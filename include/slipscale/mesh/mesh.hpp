@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,12 @@ struct Cells {
 
   int size() const { return static_cast<int>(number.size()); }
   int corner_count(int cell) const { return first[cell + 1] - first[cell]; }
+  std::span<const Vector2> corners_of(int cell) const {  ///< counter-clockwise, m
+    return std::span(corners).subspan(first[cell], corner_count(cell));
+  }
+  std::span<const int> nodes_of(int cell) const {  ///< local node of each corner
+    return std::span(corner_nodes).subspan(first[cell], corner_count(cell));
+  }
 };
 
 /// What the partition costs; one entry a rank.
