@@ -111,6 +111,7 @@ void homogenize(Options& options) {
   const Choice choice = read_choice(options);
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = mesh_for(comm, choice.source, choice.kinds.front());
+  for (const std::string& note : mesh.notes) print(note + "\n");
   std::vector<std::string> regions = mesh.region_names();
   regions.push_back("all");
   options.know_names("region", regions);

@@ -101,6 +101,18 @@ TEST_F(BadMesh, NumbersThatLeadNowhere) {
   expect(complaint(file), "node tag 3", "write it again");
 }
 
+/// The head of a block is gone, or another section stands amid the elements.
+TEST_F(BadMesh, LinesMissingAndForeign) {
+  file.nodes = replaced(file.nodes, "2 1 0 4\n", "");
+  expect(complaint(file), "is damaged: $Nodes", "write it again");
+  file = {};
+  file.elements = replaced(file.elements, "2 1 2 2\n", "");
+  expect(complaint(file), "is damaged: $Elements", "write it again");
+  file = {};
+  file.elements = replaced(file.elements, "3 1 3 4\n", "$Foo\n3 1 3 4\n");
+  expect(complaint(file), "is damaged: $Elements", "write it again");
+}
+
 /// A block of lines cannot be part of a surface, nor a block of cells part of a curve.
 TEST_F(BadMesh, CellsOfACurve) {
   file.elements = replaced(file.elements, "2 1 2 2\n", "1 1 2 2\n");
