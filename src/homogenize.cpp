@@ -135,5 +135,8 @@ int main(int argc, char** argv) {
       {"homogenize",
        "Effective stiffness and localisation tensors of a periodic cell or a whole block in plane "
        "strain, from three static load cases by SNES and KSP (prefix -cell_).",
-       mesh_schema() + material_schema() + cell_schema(), homogenize, commit});
+       mesh_schema() + material_schema() + cell_schema(),
+       homogenize,
+       commit,
+       {"cell_"}});
 }

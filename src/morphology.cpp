@@ -7,10 +7,10 @@
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
-#include "slipscale/files/output_folder.hpp"
 #include "slipscale/morphology/compose.hpp"
 #include "slipscale/morphology/picture.hpp"
 #include "slipscale/morphology/report.hpp"
+#include "slipscale/morphology/result_files.hpp"
 
 using namespace slipscale;
 
@@ -36,21 +36,17 @@ Composed compose_for(const std::string& folder, const Recipe& recipe, GmshModel&
   }
 }
 
-/// Under its final name a file is always whole.
-template <class Write>
-void write_whole(const std::string& folder, const std::string& name, const Write& write) {
-  const std::string partial = folder + "/.partial." + name;
-  write(partial);
-  std::filesystem::rename(partial, folder + "/" + name);
-}
-
 void make(const Recipe& recipe, const Options& options) {
   const std::string folder = options.text("output_folder");
   GmshModel gmsh;
   const Composed composed = compose_for(folder, recipe, gmsh);
-  write_whole(folder, "mesh.msh", [&](const std::string& path) { gmsh.write(path); });
-  write_whole(folder, "morphology.png", [&](const std::string& path) { write_picture(composed.mesh, path); });
-  replace_text_file(folder + "/morphology.yaml", morphology_yaml(options.effective(), recipe, composed));
+  ResultFiles files(folder);
+  files.add("mesh.msh", [&](const std::string& path) { write_mesh(recipe, composed, gmsh, path); });
+  files.add("morphology.png", [&](const std::string& path) { write_picture(composed.mesh, path); });
+  files.add("morphology.yaml", [&](const std::string& path) {
+    write_text(path, morphology_yaml(options.effective(), recipe, composed));
+  });
+  files.publish();
   print(describe(recipe, composed) + "mesh in " + folder + "/mesh.msh, picture in " + folder +
         "/morphology.png\n");
 }

@@ -10,18 +10,21 @@
 #include <new>
 
 #include "command_line.hpp"
+#include "names.hpp"
+#include "process.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
+#include "slipscale/base/yaml_text.hpp"
 #include "slipscale/version.hpp"
 
 namespace slipscale {
 namespace {
 
-void complain(const std::string& program, std::string sentence) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+void complain(const std::string& program, const std::string& text) {
+  const std::string sentence = one_line(text);
   std::fflush(stdout);
   std::fprintf(stderr, "%s: %s\n", program.c_str(), sentence.c_str());
   std::fflush(stderr);
@@ -55,10 +58,46 @@ int guarded(const std::string& program, const std::function<void()>& work) {
 }
 
 /// The scenes one after the other, then the command line over them.
-void fill_database(const CommandLine& line, const std::vector<std::string>& scenes,
-                   const std::vector<char*>& arguments) {
-  for (std::size_t k = 0; k < scenes.size(); ++k) insert_scene(line.scene_files[k], scenes[k]);
-  insert_arguments(arguments);
+std::vector<Written> read_all(const CommandLine& line) {
+  std::vector<Written> options;
+  int order = 0;
+  for (const std::string& file : line.scene_files) {
+    const auto scene = read_scene_text(file, read_on_all("-options_file_yaml", file), ++order);
+    options.insert(options.end(), scene.begin(), scene.end());
+  }
+  ++order;
+  for (Written option : line.options) {
+    option.origin = {order, "the command line"};
+    options.push_back(option);
+  }
+  return options;
+}
+
+bool is_petsc(const Program& program, const std::string& name) {
+  return names::petsc_system(name) || names::petsc_object(name, program.solvers);
+}
+
+/// What PETSc is to see of the command line: its own options, and its own files.
+std::vector<std::string> petsc_arguments(const Program& program, const CommandLine& line) {
+  std::vector<std::string> arguments{line.program};
+  for (const std::string& file : line.option_files)
+    arguments.insert(arguments.end(), {"-options_file", file});
+  for (const Written& option : line.options) {
+    if (!is_petsc(program, option.name)) continue;
+    arguments.push_back("-" + option.name);
+    if (option.value) arguments.push_back(*option.value);
+  }
+  return arguments;
+}
+
+/// PETSc's own options of the scenes, and over them those of the command line.
+void fill_database(const Program& program, const std::vector<Written>& options,
+                   std::vector<char*>& arguments) {
+  for (const Written& option : options)
+    if (option.in_yaml && is_petsc(program, option.name))
+      petsc(PetscOptionsSetValue(nullptr, ("-" + option.name).c_str(),
+                                 option.value ? option.value->c_str() : nullptr));
+  petsc(PetscOptionsInsertArgs(nullptr, static_cast<int>(arguments.size()) - 2, arguments.data() + 1));
 }
 
 /// PETSc lists options nobody read, at length; we have told the user already, and better.
@@ -68,18 +107,29 @@ void silence_leftovers() {
   if (!given) petsc(PetscOptionsSetValue(nullptr, "-options_left", "no"));
 }
 
-int run_in_petsc(const Program& program, CommandLine line, const std::vector<std::string>& scenes) {
-  std::vector<char*> arguments;
-  for (std::string& argument : line.arguments) arguments.push_back(argument.data());
-  arguments.push_back(nullptr);
+/// Where PETSc does not start it is for its options: everything else is as at every start.
+void start_petsc(std::vector<char*>& arguments) {
   int argc = static_cast<int>(arguments.size()) - 1;
   char** argv = arguments.data();
+  const KeptSignals kept;
   // Before PETSc starts, so that its debugging options (-on_error_abort) come on top of ours.
   keep_petsc_messages();
-  petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
+  if (PetscInitialize(&argc, &argv, nullptr, nullptr))
+    throw UserError(
+        "PETSc does not start with the options it finds, on the command line, in PETSC_OPTIONS or in "
+        ".petscrc: " +
+        take_petsc_message() + "; correct or remove them");
+}
+
+int run_in_petsc(const Program& program, const CommandLine& line, const std::vector<Written>& written) {
+  std::vector<std::string> words = petsc_arguments(program, line);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  start_petsc(arguments);
   const int code = guarded(program.name, [&] {
-    fill_database(line, scenes, arguments);
-    Options options(program.name, program.schema, written_options());
+    fill_database(program, written, arguments);
+    Options options(program.name, program.schema, written, program.solvers);
     program.run(options);
   });
   silence_leftovers();
@@ -118,7 +168,7 @@ std::string version_line(const Program& program) {
 }
 
 int answer(int argc, char** argv, const Program& program) {
-  const CommandLine line = read_command_line(argc, argv, program.name, program.schema);
+  const CommandLine line = read_command_line(argc, argv);
   if (line.help) {
     print(manual(program.name, program.purpose, program.schema));
     return 0;
@@ -127,11 +177,9 @@ int answer(int argc, char** argv, const Program& program) {
     print(version_line(program));
     return 0;
   }
-  std::vector<std::string> scenes;
-  for (const std::string& file : line.scene_files) scenes.push_back(read_on_all("-options_file_yaml", file));
-  for (std::size_t k = 1; k + 1 < line.arguments.size(); ++k)
-    if (line.arguments[k] == "-options_file") (void)read_on_all("-options_file", line.arguments[k + 1]);
-  return run_in_petsc(program, line, scenes);
+  check_petsc_values(line);
+  for (const std::string& file : line.option_files) (void)read_on_all("-options_file", file);
+  return run_in_petsc(program, line, read_all(line));
 }
 
 }  // namespace
@@ -143,6 +191,7 @@ void end_reading(const Options& options) {
 
 int run_program(int argc, char** argv, const Program& program) {
   set_program(program.name, program.commit);
+  start_alone();
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   int code = 0;

@@ -1,11 +1,10 @@
 #include "slipscale/homogenize/localisation_file.hpp"
 
 #include <array>
-#include <numeric>
 
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
-#include "slipscale/solid/element.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 
 namespace slipscale {
 namespace {
@@ -13,12 +12,6 @@ namespace {
 /// The datasets of the local stress, one for each load case, and the macroscopic strain of that case.
 constexpr std::array<const char*, load_cases> stress_names{"stress_xx", "stress_yy", "stress_xy"};
 constexpr std::array<const char*, load_cases> strain_names{"xx", "yy", "xy"};
-
-double area(const Cells& cells, int cell) {
-  const auto parts = corner_areas(
-      {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))});
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
-}
 
 /// Returns what XDMF shows of it.
 std::vector<XdmfAttribute> write_tensors(SharedFile& file, const MeshImage& image, const MeshLayout& layout,
@@ -31,7 +24,7 @@ std::vector<XdmfAttribute> write_tensors(SharedFile& file, const MeshImage& imag
     shown.insert(shown.end(), parts.begin(), parts.end());
   };
   write_on_cells(file, image, {"/cell/area", "m2", "area of each cell"}, {},
-                 [&](int cell, double* row) { row[0] = area(mesh.cells, cell); });
+                 [&](int cell, double* row) { row[0] = cell_area(mesh.cells.corners_of(cell)); });
   write_on_cells(
       file, image,
       {"/cell/localisation", "1",

@@ -14,10 +14,6 @@
 namespace slipscale {
 namespace {
 
-std::span<const Vector2> corners_of(const Cells& cells, int cell) {
-  return {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))};
-}
-
 constexpr long nobody = std::numeric_limits<long>::max();
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
@@ -149,7 +145,7 @@ void Probes::place_on_nodes(MPI_Comm comm, const Mesh& mesh, std::vector<char>& 
     for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
       const int i = mesh.cells.corner_nodes[first + k];
       if (i >= mesh.nodes.owned || points_on[i].empty()) continue;
-      const double area = corner_areas(corners_of(mesh.cells, cell))[k];
+      const double area = corner_areas(mesh.cells.corners_of(cell))[k];
       for (const int p : points_on[i]) shares_[p].push_back({cell, area});
     }
   }
@@ -167,7 +163,7 @@ void Probes::place_in_cells(MPI_Comm comm, const Mesh& mesh, std::vector<char>& 
   std::vector<Claim> mine(positions_.size());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     if (!mesh.cells.owned[cell]) continue;
-    const auto corners = corners_of(mesh.cells, cell);
+    const auto corners = mesh.cells.corners_of(cell);
     buckets.visit_in(reach(corners, 1e-6 * size_of(mesh)), [&](int p) {
       if (placed[p] || found[p] >= 0 || !shape_values_at(corners, positions_[p], weights[p])) return;
       found[p] = cell;

@@ -15,6 +15,7 @@ struct Program {
   Schema schema;
   std::function<void(Options& options)> run;  ///< on PETSC_COMM_WORLD
   std::string commit = {};                    ///< of the sources; "" when unknown
+  std::vector<std::string> solvers = {};      ///< prefixes of the options of its PETSc solvers: "cell_"
   std::vector<std::string> libraries = {};    ///< for `-version`, besides PETSc, MPI and HDF5: "gmsh 4.8.4"
 };
 
