@@ -166,7 +166,7 @@ class InUse(InBlock):
             shutil.rmtree(self.folder / "out", ignore_errors=True)
             _, err = job.communicate(timeout=60)
             self.assertNotEqual(job.returncode, 0)
-            self.assertRegex(err, r"slide: out/(history|contact).h5 cannot be written: No such file or directory; ")
+            self.assertRegex(err, r"slide: out/(history|contact).h5 cannot be written: .*No such file or directory; ")
             if ranks == 1:
                 self.assertEqual(job.returncode, 1)
 
@@ -243,9 +243,10 @@ class Contents(InBlock):
         points = np.round(rng.uniform(0, 5e-3, (3000, 2)), 7)
         (self.folder / "points.yaml").write_text(f"history_points: [{','.join(f'{x:.7f}' for x in points.ravel())}]\n")
         scene = {"options_file_yaml": "points.yaml", **SCENE, "history_points": None}
-        begun = time.monotonic()
-        outcome = self.run_scene(scene, ranks=2)
-        self.assertLess(time.monotonic() - begun, 30)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        outcome = self.run_scene(scene)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, 20)  # s of work
         number, unit = re.search(r"output ([\d.]+) (kB|MB|GB)", outcome.out).groups()
         size = sum(file.stat().st_size for file in (self.folder / "out").iterdir() if file.suffix == ".h5")
         self.assertAlmostEqual(float(number) * {"kB": 1e3, "MB": 1e6, "GB": 1e9}[unit] / size, 1, delta=0.25)
@@ -288,8 +289,8 @@ class Cadences(InBlock):
         self.assertIn(summary["contact"]["regime"], ("slip", "stick-slip", "slip-separated", "stick-slip-separated"))
 
     def test_rows_too_sparse_are_noticed(self):
-        """A free block that rings along x, once a microsecond and more often than a row is written."""
-        scene = {**SCENE, "time_end": 100e-6, "history_points": None}
+        """Rows further apart than half a period of the strongest vibration."""
+        scene = {**SCENE, "time_end": 1e-3, "history_points": None, "contact_every": 1000}
         dense = self.run_scene(scene, history_every=1).out
         self.assertNotIn("alias", dense)
         summary = yaml.safe_load((self.folder / "out" / "summary.yaml").read_text())
