@@ -67,6 +67,9 @@ class Fields(OnMesh):
     def read(self, name, frame=-1):
         return read_dataset(self._file, f"frames/{self._frames[frame]}/{name}")
 
+    def holds(self, name, frame=-1):
+        return name in self._file[f"frames/{self._frames[frame]}"]
+
     def cell_history(self, name, cell):
         """The values [m, 3] of one cell in all frames."""
         return np.array([self._file[f"frames/{frame}/{name}"][cell] for frame in self._frames])
