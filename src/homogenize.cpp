@@ -1,11 +1,11 @@
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 
+#include "commit.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/log.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/files/output_folder.hpp"
@@ -79,22 +79,8 @@ double peak_memory() {
 void measure_costs(MPI_Comm comm, std::chrono::steady_clock::time_point start, Homogenised& found) {
   found.memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &found.memory, 1, MPI_DOUBLE, MPI_SUM, comm);
-  MPI_Comm_size(comm, &found.ranks);
+  found.ranks = ranks_of(comm);
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Sees before the work that there is a place for its result, and leaves it as it is.
-void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
-  std::filesystem::path place = std::filesystem::absolute(folder);
-  std::error_code none;
-  while (!std::filesystem::exists(place, none) && place.has_relative_path()) place = place.parent_path();
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  const bool usable =
-      rank != 0 || (std::filesystem::is_directory(place, none) && access(place.c_str(), W_OK) == 0);
-  throw_together(comm, usable ? ""
-                              : "-output_folder '" + folder + "' cannot be written to ('" + place.string() +
-                                    "' is no folder, or not yours); give a folder that you may write to");
 }
 
 /// Solves for each kind of boundary, for the first on its mesh `mesh`, and on the refined ones.
@@ -129,8 +115,7 @@ void homogenize(Options& options) {
   regions.push_back("all");
   options.know_names("region", regions);
   const std::vector<Material> materials = read_materials(options, mesh.region_names());
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
 
   Homogenised found = solve(comm, choice, mesh, materials, options);
 
@@ -150,5 +135,8 @@ int main(int argc, char** argv) {
       {"homogenize",
        "Effective stiffness and localisation tensors of a periodic cell or a whole block in plane "
        "strain, from three static load cases by SNES and KSP (prefix -cell_).",
-       mesh_schema() + material_schema() + cell_schema(), homogenize});
+       mesh_schema() + material_schema() + cell_schema(),
+       homogenize,
+       commit,
+       {"cell_"}});
 }

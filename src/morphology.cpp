@@ -1,9 +1,10 @@
 // Links libgmsh, which is under the GNU General Public License (version 2 or later): so is this program as a
 // whole when it is passed on in binary form. The rest of slipscale does not link it.
 #include <filesystem>
-#include <fstream>
 
+#include "commit.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/morphology/compose.hpp"
@@ -17,12 +18,10 @@ namespace {
 
 /// Sees before the work that there is a place for its result. Returns whether the folder is new.
 bool make_folder(const std::string& folder) {
+  if (const std::string fault = why_unwritable(folder); !fault.empty()) throw UserError(fault);
   std::error_code code;
   const bool is_new = std::filesystem::create_directories(folder, code);
-  const std::string trial = folder + "/.morphology.partial";
-  if (!std::ofstream(trial))
-    throw UserError("-output_folder '" + folder + "' cannot be written to; name another");
-  std::filesystem::remove(trial, code);
+  if (code) throw UserError("-output_folder '" + folder + "' cannot be created (" + code.message() + ")");
   return is_new;
 }
 
@@ -56,14 +55,11 @@ void make(const Recipe& recipe, const Options& options) {
 void morphology(Options& options) {
   const Recipe recipe = read_recipe(options);
   (void)options.text("output_folder");
-  options.refuse_unread();
+  end_reading(options);
   options.refuse_unknown();
-  for (const std::string& note : options.notes()) print(note + "\n");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   std::string fault;
   try {
-    if (rank == 0) make(recipe, options);
+    if (is_root(PETSC_COMM_WORLD)) make(recipe, options);
   } catch (const UserError& error) {
     fault = error.what();
   }
@@ -78,5 +74,8 @@ int main(int argc, char** argv) {
       {"morphology",
        "Draws a composite from a recipe and meshes it: inclusions at random or in arrays, laminates, "
        "pictures of real composites. Writes MSH 4.1 with named regions and sides.",
-       recipe_schema(), morphology});
+       recipe_schema(),
+       morphology,
+       commit,
+       {"gmsh " + GmshModel::version()}});
 }

@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "commit.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/log.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/files/output_folder.hpp"
@@ -25,9 +27,7 @@ using namespace slipscale;
 namespace {
 
 RankShare share_of(MPI_Comm comm, const Targets& targets) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
+  const int rank = rank_of(comm), ranks = ranks_of(comm);
   return rank_share(static_cast<std::size_t>(targets.grid.cells()), rank, ranks);
 }
 
@@ -52,8 +52,7 @@ std::optional<StatisticsReader> statistics_of(MPI_Comm comm, const std::string& 
 void relocalize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const RelocalisationChoice choice = read_relocalisation(options);
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
 
   // Both scales, and where their meshes meet.
   const FieldsReader run(comm, choice.run);
@@ -120,5 +119,5 @@ int main(int argc, char** argv) {
       {"relocalize",
        "Stress and strain of the phases over time, C : A : E, from a homogeneous run of slide and the "
        "localisation tensors of homogenize; compared with a heterogeneous run where there is one.",
-       relocalisation_schema(), relocalize});
+       relocalisation_schema(), relocalize, commit});
 }

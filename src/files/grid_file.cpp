@@ -1,6 +1,7 @@
 #include "slipscale/files/grid_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -11,6 +12,10 @@ namespace slipscale {
 namespace {
 
 constexpr int xdmf_triangle = 4, xdmf_quadrilateral = 5;
+
+void require(bool fine, const std::string& path, const char* fault) {
+  if (!fine) throw LibraryError(path + " " + fault);
+}
 
 Hdf5Dataset open(hid_t file, const std::string& path) {
   return Hdf5Dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
@@ -27,8 +32,15 @@ std::size_t entries(const std::vector<hsize_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
 
-void require(bool fine, const std::string& path, const char* fault) {
-  if (!fine) throw LibraryError(path + " " + fault);
+/// How many numbers the dataset has; refused where the file cannot hold what it declares, before any memory
+/// is asked for. (Nothing of zlib's packs tighter than 1032 : 1.)
+std::size_t stored_entries(hid_t dataset, const std::string& path) {
+  const std::size_t count = entries(shape_of(dataset, path));
+  const Hdf5Type type(hdf5(H5Dget_type(dataset), path));
+  const double declared = static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
+  const double stored = static_cast<double>(H5Dget_storage_size(dataset));
+  require(declared <= 1032 * stored, path, "declares more numbers than the file holds");
+  return count;
 }
 
 /// XDMF's mixed stream: of each cell its code before its points.
@@ -106,6 +118,8 @@ void GridFile::read_mesh(PlaneGrid& grid) const {
   const std::vector<double> x = reals("/mesh/coordinates");
   const auto place = shape("/mesh/coordinates"), cells = shape("/mesh/cells");
   require(place.size() == 2 && place[1] == 2, "/mesh/coordinates", "is not a list of x and y");
+  require(std::all_of(x.begin(), x.end(), [](double number) { return std::isfinite(number); }),
+          "/mesh/coordinates", "has a position that is not a number");
   for (std::size_t k = 0; k < x.size(); k += 2) grid.points.push_back({x[k], x[k + 1]});
   grid.region = integers("/mesh/region");
   grid.regions = texts("/mesh/region", "names");
@@ -128,14 +142,14 @@ std::vector<hsize_t> GridFile::shape(const std::string& dataset) const {
 
 std::vector<double> GridFile::reals(const std::string& dataset) const {
   const Hdf5Dataset set = open(file_, dataset);
-  std::vector<double> values(entries(shape_of(set, dataset)));
+  std::vector<double> values(stored_entries(set, dataset));
   hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
   return values;
 }
 
 std::vector<int> GridFile::integers(const std::string& dataset) const {
   const Hdf5Dataset set = open(file_, dataset);
-  std::vector<int> values(entries(shape_of(set, dataset)));
+  std::vector<int> values(stored_entries(set, dataset));
   hdf5(H5Dread(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
   return values;
 }
@@ -162,6 +176,8 @@ double GridFile::number(const std::string& object, const std::string& attribute)
   const std::string what = object + "'s attribute " + attribute;
   const Hdf5Attribute found(
       hdf5(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), what));
+  const Hdf5Space space(hdf5(H5Aget_space(found), what));
+  require(H5Sget_simple_extent_npoints(space) == 1, what, "is not one number");
   hdf5(H5Aread(found, H5T_NATIVE_DOUBLE, &value), what);
   return value;
 }
@@ -176,6 +192,7 @@ std::vector<std::string> GridFile::texts(const std::string& object, const std::s
           "is not a text of fixed length");
   const auto count = static_cast<std::size_t>(hdf5(H5Sget_simple_extent_npoints(space), what));
   const std::size_t length = H5Tget_size(type);
+  require(length > 0, what, "has a text without size");
   std::string all(count * length, '\0');
   hdf5(H5Aread(found, type, all.data()), what);
   std::vector<std::string> list;

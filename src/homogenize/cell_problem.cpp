@@ -6,6 +6,7 @@
 #include "cell_solver.hpp"
 #include "cell_system.hpp"
 #include "slipscale/mesh/outer_boundary.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale {
@@ -81,15 +82,8 @@ struct CellGeometryView {
 };
 
 CellGeometryView view(const Mesh& mesh, int cell) {
-  const int first = mesh.cells.first[cell];
-  const std::span<const Vector2> x{mesh.cells.corners.data() + first,
-                                   static_cast<std::size_t>(mesh.cells.corner_count(cell))};
-  double area = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const Vector2 &a = x[i], &b = x[(i + 1) % x.size()];
-    area += 0.5 * ((a[0] - x[0][0]) * (b[1] - x[0][1]) - (a[1] - x[0][1]) * (b[0] - x[0][0]));
-  }
-  return {x, first, area};
+  const auto corners = mesh.cells.corners_of(cell);
+  return {corners, mesh.cells.first[cell], cell_area(corners)};
 }
 
 /// Mean strain of a cell: by Gauss's theorem from its edges, on which the displacement is linear.

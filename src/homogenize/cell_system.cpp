@@ -30,18 +30,12 @@ OwnedVec CellSystem::vector() const {
   return vec;
 }
 
-std::span<const Vector2> CellSystem::corners(int cell) const {
-  return {mesh_.cells.corners.data() + mesh_.cells.first[cell],
-          static_cast<std::size_t>(mesh_.cells.corner_count(cell))};
-}
-
 OwnedMat CellSystem::matrix() const {
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(mesh_.nodes.owned));
   for (int cell = 0; cell < mesh_.cells.size(); ++cell) {
-    const int *begin = mesh_.cells.corner_nodes.data() + mesh_.cells.first[cell],
-              *end = mesh_.cells.corner_nodes.data() + mesh_.cells.first[cell + 1];
-    for (const int* row = begin; row != end; ++row)
-      if (*row < mesh_.nodes.owned) neighbours[*row].insert(neighbours[*row].end(), begin, end);
+    const auto nodes = mesh_.cells.nodes_of(cell);
+    for (const int row : nodes)
+      if (row < mesh_.nodes.owned) neighbours[row].insert(neighbours[row].end(), nodes.begin(), nodes.end());
   }
   std::vector<PetscInt> here, beyond;
   for (auto& list : neighbours) {
@@ -97,7 +91,7 @@ PetscErrorCode CellSystem::residual(Vec u, Vec out) {
       displacement[2 * c + 1] = node[1] + 0.5 * strain_[2] * x[0] + strain_[1] * x[1];
     }
     element.head(2 * count).noalias() =
-        element_stiffness(corners(cell), materials_[mesh_.cells.region[cell]].stiffness) *
+        element_stiffness(mesh_.cells.corners_of(cell), materials_[mesh_.cells.region[cell]].stiffness) *
         displacement.head(2 * count);
     for (int c = 0; c < count; ++c)
       if (const int node = mesh_.cells.corner_nodes[first + c]; node < mesh_.nodes.owned)
@@ -107,7 +101,7 @@ PetscErrorCode CellSystem::residual(Vec u, Vec out) {
     if (held_[k]) force[k] = 0;
   PetscCall(VecRestoreArrayWrite(out, &force));
   PetscCall(VecRestoreArrayRead(local_, &values));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 PetscErrorCode CellSystem::jacobian(Mat matrix) const {
@@ -116,7 +110,7 @@ PetscErrorCode CellSystem::jacobian(Mat matrix) const {
   for (int cell = 0; cell < mesh_.cells.size(); ++cell) {
     const int first = mesh_.cells.first[cell], count = mesh_.cells.corner_count(cell);
     const ElementStiffness k =
-        element_stiffness(corners(cell), materials_[mesh_.cells.region[cell]].stiffness);
+        element_stiffness(mesh_.cells.corners_of(cell), materials_[mesh_.cells.region[cell]].stiffness);
     std::array<PetscInt, 4> rows{}, columns{};
     for (int c = 0; c < count; ++c) {
       const int node = mesh_.cells.corner_nodes[first + c];
@@ -132,7 +126,7 @@ PetscErrorCode CellSystem::jacobian(Mat matrix) const {
     if (held_[k]) rows.push_back(2 * offset_ + static_cast<PetscInt>(k));
   PetscCall(
       MatZeroRowsColumns(matrix, static_cast<PetscInt>(rows.size()), rows.data(), scale_, nullptr, nullptr));
-  PetscFunctionReturn(0);
+  PetscFunctionReturn(PetscErrorCode{});
 }
 
 OwnedMatNullSpace CellSystem::rigid_motions() const {

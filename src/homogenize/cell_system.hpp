@@ -44,8 +44,6 @@ class CellSystem {
   const Mesh& mesh() const { return mesh_; }
 
  private:
-  std::span<const Vector2> corners(int cell) const;
-
   MPI_Comm comm_;
   const Mesh& mesh_;
   const std::vector<Material>& materials_;

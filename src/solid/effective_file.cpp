@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/yaml_text.hpp"
 
 namespace slipscale {
 namespace {
@@ -28,6 +29,8 @@ EffectiveFile read_effective_file(const std::string& path, const std::string& op
   if (!std::ifstream(path))
     throw UserError("-" + option + ": cannot read '" + path +
                     "'; give the effective.yaml of a homogenised material");
+  // Refuses what PETSc would take for something else, or take for ever.
+  (void)read_yaml("-" + option + ": '" + path + "'", read_on_all("-" + option, path));
   Database database;
   if (PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, database, path.c_str(), PETSC_TRUE))
     throw UserError("-" + option + ": '" + path + "' is not valid YAML (" + take_petsc_message() +

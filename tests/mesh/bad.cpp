@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "scenes.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;
@@ -37,9 +38,7 @@ struct File {
 
 std::string written(const std::string& text) {
   const std::string path = scratch("bad.msh");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) std::ofstream(path, std::ios::binary) << text;
+  if (is_root(PETSC_COMM_WORLD)) std::ofstream(path, std::ios::binary) << text;
   MPI_Barrier(PETSC_COMM_WORLD);
   return path;
 }

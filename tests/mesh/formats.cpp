@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "slipscale/base/parallel.hpp"
 #include "whole.hpp"
 
 using namespace slipscale;
@@ -13,9 +14,7 @@ namespace {
 
 std::string written(const std::string& text) {
   const std::string path = scratch("format.msh");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) std::ofstream(path, std::ios::binary) << text;
+  if (is_root(PETSC_COMM_WORLD)) std::ofstream(path, std::ios::binary) << text;
   MPI_Barrier(PETSC_COMM_WORLD);
   return path;
 }

@@ -1,6 +1,6 @@
 """Finds the regularisation time with which a homogeneous model rubs as the composite does.
 
-    PYTHONPATH=runs python3 -m slipscale.adapting.adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
+    slipscale adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
         [--program "build/release/slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
 
 Both are folders of `slide`; the homogeneous run is repeated with its run.yaml, from the same working folder. The
@@ -24,7 +24,6 @@ a level came nearer in its spectrum of friction, and nearer than a block that do
 1: none did, honestly; 2: what is asked for cannot be read.
 """
 
-import argparse
 import math
 import sys
 from pathlib import Path
@@ -36,7 +35,10 @@ from slipscale.adapting import relaxation, search
 from slipscale.adapting.trials import Trials, changed, compared, options_of, spelled_out, value_of
 from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
+from slipscale.measuring.window import default_window
+from slipscale.parser import Parser
 from slipscale.reading import History, UnreadableRun
+from slipscale.reading.yaml_file import load
 from slipscale.running.attempt import number_or_text, write_whole
 
 LEVELS = ("scaling", "frequency", "search")
@@ -54,8 +56,8 @@ class Failure(Exception):
 class Adaptation:
     def __init__(self, heterogeneous, homogeneous, asked):
         self.asked, self.folders = asked, {"heterogeneous": heterogeneous, "homogeneous": homogeneous}
-        end = min(History(folder).time[-1] for folder in self.folders.values())
-        self.window = tuple(asked.window or (0.5 * end, end))
+        self.window = tuple(asked.window or default_window(
+            min((History(folder).time for folder in self.folders.values()), key=lambda time: time[-1])))
         spectrum = friction_spectrum(heterogeneous, self.window)
         self.target = measures(heterogeneous, self.window)
         self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
@@ -187,7 +189,7 @@ def adapted_before(folder):
     file = Path(folder) / "adapt.yaml"
     if not file.is_file():
         return folder
-    found = yaml.safe_load(file.read_text())
+    found = load(file, written=True)
     ends = [level["after"] for level in found["levels"].values() if "after" in level] or [found["nearest"] or found["before"]]
     return min(ends, key=lambda end: end["spectrum_distance"])["folder"]
 
@@ -207,7 +209,7 @@ def plain(value):
 
 
 def parsed(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("adapt", __doc__)
     parser.add_argument("heterogeneous")
     parser.add_argument("homogeneous")
     parser.add_argument("--output", required=True, help="folder of adapt.yaml and the trials")
@@ -246,7 +248,3 @@ def main(arguments=None):
     if found["status"] != "ok":
         print(f"not adapted: {found['reason']}")
     return 0 if found["status"] == "ok" else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

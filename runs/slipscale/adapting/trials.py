@@ -6,11 +6,11 @@ The options are those of the run's run.yaml; fields and statistics are left out,
 import shlex
 from pathlib import Path
 
-import yaml
-
 from slipscale.measuring.distance import spectrum_distance
 from slipscale.measuring.regime import friction_spectrum, measures
+from slipscale.mistakes import Mistake
 from slipscale.reading import Summary, UnreadableRun, read_yaml
+from slipscale.reading.yaml_file import load
 from slipscale.running.attempt import attempt
 from slipscale.running.commands import words
 
@@ -86,9 +86,9 @@ class Trials:
     def outcome(folder, command):
         """That of the same command, run before; or None."""
         try:
-            known = yaml.safe_load((folder / "outcome.yaml").read_text())
+            known = load(folder / "outcome.yaml", written=True)
             return known if known["command"] == shlex.join(command) else None
-        except (OSError, TypeError, KeyError, yaml.YAMLError):
+        except (Mistake, TypeError, KeyError):
             return None
 
 

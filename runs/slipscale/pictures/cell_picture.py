@@ -1,17 +1,16 @@
 """A homogenised cell at a glance: local stress under the three unit strains, the phases, C_eff and its bounds.
 
-    PYTHONPATH=runs /usr/bin/python3 -m slipscale.pictures.cell_picture out/cell cell.png
+    slipscale cell-picture out/cell cell.png
 
 The folder is one of `homogenize`. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-import argparse
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
 
+from slipscale.parser import Parser
 from slipscale.pictures.drawing import draw_cells, limits_of, plt, write_picture
 from slipscale.reading import OnMesh, UnreadableRun, read_dataset, read_yaml
 
@@ -129,10 +128,6 @@ def draw(folder):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("cell-picture", __doc__)
     parser.add_argument("folder", help="output folder of a homogenize run")
     return write_picture(parser, lambda options: draw(options.folder), arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
