@@ -197,7 +197,7 @@ TEST(LocalisationFile, XdmfNamesDatasetsInTheirShape) {
       const std::vector<hsize_t> shape{std::istream_iterator<hsize_t>(dimensions), {}};
       EXPECT_EQ(read_back::dataset(file, (*found)[4]).shape, shape) << name << ' ' << (*found)[4];
     }
-    EXPECT_EQ(count, 2 + 1 + 2 + 3) << name;
+    EXPECT_EQ(count, 2 + 1 + 1 + 9 + 9) << name;
   }
 }
 
