@@ -66,8 +66,10 @@ class FullDisk(InBlock):
             self.assertNotIn(noise, err)
 
     def test_frames(self):
+        block(self.folder / "fine.msh", divisions=32)
+        scene = {**FOR_HOURS, "mesh_file": "fine.msh", "history_every": 1000, "fields_every": 20}
         for ranks in RANKS:
-            self.assert_stopped(self.limited({**FOR_HOURS, "history_every": 1000, "fields_every": 20}, ranks, 0), "fields.h5")
+            self.assert_stopped(self.limited(scene, ranks, 0), "fields.h5")
             frames = len(datasets(self.folder / "out" / "fields.h5")["time"])
             shown = (self.folder / "out" / "fields.xdmf").read_text()
             self.assertEqual(shown.count("<Time "), frames)
