@@ -46,7 +46,7 @@ class FullDisk(InBlock):
     """A limit on the size of files, set while the job runs (Open MPI itself would not start under it)."""
 
     def limited(self, scene, ranks, limited):
-        """What becomes of the job once the rank of that number may write no file of more than 300 kB."""
+        """What becomes of the job once the rank of that number may write no file of more than 2 MB."""
         script = 'echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}; exec "$0" "$@"'
         command = [] if ranks == 1 else [MPIEXEC, "-n", str(ranks)]
         job = subprocess.Popen([*command, "bash", "-c", script, SLIDE, *arguments_of(scene)], cwd=self.folder,
@@ -55,7 +55,7 @@ class FullDisk(InBlock):
         self.addCleanup(self.end, job)
         self.wait_for(self.folder / "out" / "history.h5")
         process = int((self.folder / f"pid.{limited}").read_text())
-        resource.prlimit(process, resource.RLIMIT_FSIZE, (300000, resource.RLIM_INFINITY))
+        resource.prlimit(process, resource.RLIMIT_FSIZE, (2000000, resource.RLIM_INFINITY))
         return job
 
     def assert_stopped(self, job, file):
@@ -66,8 +66,10 @@ class FullDisk(InBlock):
             self.assertNotIn(noise, err)
 
     def test_frames(self):
+        block(self.folder / "fine.msh", divisions=32)
+        scene = {**FOR_HOURS, "mesh_file": "fine.msh", "history_every": 1000, "fields_every": 20}
         for ranks in RANKS:
-            self.assert_stopped(self.limited({**FOR_HOURS, "fields_every": 50}, ranks, 0), "fields.h5")
+            self.assert_stopped(self.limited(scene, ranks, 0), "fields.h5")
             frames = len(datasets(self.folder / "out" / "fields.h5")["time"])
             shown = (self.folder / "out" / "fields.xdmf").read_text()
             self.assertEqual(shown.count("<Time "), frames)
@@ -86,7 +88,7 @@ class FullDisk(InBlock):
 
     def test_of_another_rank_than_the_first(self):
         """It once left both ranks waiting; only the first writes."""
-        job = self.limited({**FOR_HOURS, "time_end": 200e-6, "fields_every": 5}, 2, 1)
+        job = self.limited({**FOR_HOURS, "time_end": 60e-6, "fields_every": 10}, 2, 1)
         _, err = job.communicate(timeout=60)
         self.assertEqual((job.returncode, err), (0, ""))
 
