@@ -84,5 +84,6 @@ int main(int argc, char** argv) {
        recipe_schema(),
        morphology,
        commit,
+       {},
        {"gmsh " + GmshModel::version()}});
 }
