@@ -7,7 +7,7 @@ packages=(
   petsc-dev libpetsc-real-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libmetis-dev libfftw3-dev libyaml-dev libeigen3-dev libfmt-dev
   gmsh libgmsh-dev libpng-dev
   libgtest-dev
-  python3 python3-numpy python3-h5py python3-matplotlib python3-yaml python3-meshio snakemake
+  python3 python3-numpy python3-h5py python3-matplotlib python3-yaml python3-markdown python3-meshio snakemake
 )
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

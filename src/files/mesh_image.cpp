@@ -63,7 +63,7 @@ std::vector<char> cells_in(const Cells& cells, const Box& box) {
 }
 
 MeshImage::MeshImage(MPI_Comm comm, const Mesh& mesh, const std::optional<Box>& box)
-    : block_{mesh.lower, mesh.upper}, region_names_(mesh.region_names()) {
+    : checksum_(mesh.checksum), block_{mesh.lower, mesh.upper}, region_names_(mesh.region_names()) {
   const Rows rows = box ? rows_in(comm, mesh, *box)
                         : Rows{mesh.nodes.number, mesh.cells.number, mesh.nodes.total, mesh.cells.total};
   std::vector<Extra> extras;

@@ -34,8 +34,7 @@ void find_beyond(CellSide side, const std::vector<CellVertices>& cells, const Ro
 }
 
 /// Cells that share an edge, ascending. Rank 0.
-Rows cell_graph(const std::vector<CellVertices>& cells, PetscInt vertices) {
-  const Rows around = cells_around(cells, vertices);
+Rows cell_graph(const std::vector<CellVertices>& cells, const Rows& around) {
   std::vector<CellVertices> beyond(cells.size(), {-1, -1, -1, -1});
   Rows graph;
   graph.start.reserve(cells.size() + 1);
@@ -106,7 +105,7 @@ std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, c
   if (partitioner == Partitioner::simple) return runs_of_the_order(ranks, whole.cell_number);
   const auto& cells = whole.plain.cells;
   Rows graph;
-  if (!cells.empty()) graph = cell_graph(cells, static_cast<PetscInt>(whole.plain.position.size()));
+  if (!cells.empty()) graph = cell_graph(cells, whole.around);
   if (partitioner == Partitioner::ptscotch) return ptscotch_parts(comm, std::move(graph), ranks);
   return cells.empty() ? std::vector<PetscInt>{} : metis_parts(std::move(graph), ranks);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "slipscale/mesh/shape_functions.hpp"
+
 namespace slipscale::mesh_stages {
 namespace {
 
@@ -12,11 +14,7 @@ double cross(const Vector2& o, const Vector2& a, const Vector2& b) {
 
 }  // namespace
 
-double CellGeometry::area() const {
-  double twice = 0;
-  for (std::size_t k = 1; k + 1 < size(); ++k) twice += cross(corners[0], corners[k], corners[k + 1]);
-  return 0.5 * twice;
-}
+double CellGeometry::area() const { return cell_area({corners.data(), size()}); }
 
 double CellGeometry::smallest_corner() const {
   const std::size_t n = size();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "slipscale/mesh/shape_functions.hpp"
+
 namespace slipscale {
 
 CellCorners PlaneGrid::corners_of(int cell) const {
@@ -20,14 +22,7 @@ Vector2 centre(const PlaneGrid& grid, int cell) {
   return {sum[0] / count, sum[1] / count};
 }
 
-double area(const PlaneGrid& grid, int cell) {
-  const CellCorners all = grid.corners_of(cell);
-  double twice = 0;
-  for (std::size_t k = 2; k < all.count; ++k)
-    twice += (all.x[k - 1][0] - all.x[0][0]) * (all.x[k][1] - all.x[0][1]) -
-             (all.x[k - 1][1] - all.x[0][1]) * (all.x[k][0] - all.x[0][0]);
-  return 0.5 * twice;
-}
+double area(const PlaneGrid& grid, int cell) { return cell_area(grid.corners_of(cell)); }
 
 std::vector<Vector2> centres(const PlaneGrid& grid) {
   std::vector<Vector2> all(grid.region.size());

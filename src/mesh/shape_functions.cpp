@@ -18,8 +18,14 @@ Eigen::Matrix2d jacobian(std::span<const Vector2> corners, const Bilinear& shape
   return j;
 }
 
-double triangle_area(std::span<const Vector2> x) {
-  return 0.5 * ((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]));
+double triangle_area(std::span<const Vector2> x) { return cell_area(x.first(3)); }
+
+double cell_area(std::span<const Vector2> x) {
+  // As seen from the first corner, so that it is as exact far from the origin.
+  double twice = 0;
+  for (std::size_t k = 2; k < x.size(); ++k)
+    twice += (x[k - 1][0] - x[0][0]) * (x[k][1] - x[0][1]) - (x[k - 1][1] - x[0][1]) * (x[k][0] - x[0][0]);
+  return 0.5 * twice;
 }
 
 bool shape_values_at(std::span<const Vector2> corners, const Vector2& point, std::array<double, 4>& values) {

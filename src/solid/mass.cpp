@@ -5,21 +5,14 @@
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale {
-namespace {
-
-std::span<const Vector2> corners_of(const Cells& cells, int cell) {
-  return {cells.corners.data() + cells.first[cell], static_cast<std::size_t>(cells.corner_count(cell))};
-}
-
-}  // namespace
-
 std::vector<double> lumped_mass(const Mesh& mesh, const std::vector<Material>& materials) {
   std::vector<double> mass(static_cast<std::size_t>(mesh.nodes.owned), 0);
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const auto areas = corner_areas(corners_of(mesh.cells, cell));
+    const auto areas = corner_areas(mesh.cells.corners_of(cell));
     const double density = materials[mesh.cells.region[cell]].density;
-    for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
-      const int node = mesh.cells.corner_nodes[mesh.cells.first[cell] + k];
+    const auto nodes = mesh.cells.nodes_of(cell);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const int node = nodes[k];
       if (node < mesh.nodes.owned) mass[node] += density * areas[k];
     }
   }
@@ -28,10 +21,11 @@ std::vector<double> lumped_mass(const Mesh& mesh, const std::vector<Material>& m
 
 std::array<double, 3> stress_of_cell(const Mesh& mesh, const std::vector<Material>& materials,
                                      const Vector2* displacement, int cell) {
-  const auto b = centre_strain_displacement(corners_of(mesh.cells, cell));
+  const auto b = centre_strain_displacement(mesh.cells.corners_of(cell));
   Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-  for (int k = 0; k < mesh.cells.corner_count(cell); ++k) {
-    const Vector2& u = displacement[mesh.cells.corner_nodes[mesh.cells.first[cell] + k]];
+  const auto nodes = mesh.cells.nodes_of(cell);
+  for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
+    const Vector2& u = displacement[nodes[k]];
     strain += b.col(2 * k) * u[0] + b.col(2 * k + 1) * u[1];
   }
   const Eigen::Vector3d stress = materials[mesh.cells.region[cell]].stiffness * strain;
@@ -49,7 +43,7 @@ double element_eigenvalue_bound(MPI_Comm comm, const Mesh& mesh, const std::vect
   double largest = 0;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const Material& material = materials[mesh.cells.region[cell]];
-    largest = std::max(largest, largest_element_eigenvalue(corners_of(mesh.cells, cell), material.stiffness,
+    largest = std::max(largest, largest_element_eigenvalue(mesh.cells.corners_of(cell), material.stiffness,
                                                            material.density));
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);

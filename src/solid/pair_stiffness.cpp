@@ -15,7 +15,7 @@ std::vector<std::vector<int>> higher_neighbours(const Mesh& mesh) {
   const auto& number = mesh.nodes.number;
   std::vector<std::vector<int>> higher(static_cast<std::size_t>(mesh.nodes.size()));
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const int* nodes = mesh.cells.corner_nodes.data() + mesh.cells.first[cell];
+    const auto nodes = mesh.cells.nodes_of(cell);
     const int count = mesh.cells.corner_count(cell);
     for (int a = 0; a < count; ++a)
       for (int b = 0; b < count; ++b)
@@ -65,10 +65,10 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
   };
   std::vector<Sum> sums(high_.size());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
-    const int* nodes = mesh.cells.corner_nodes.data() + first;
-    const auto k = element_stiffness({mesh.cells.corners.data() + first, static_cast<std::size_t>(count)},
-                                     materials[mesh.cells.region[cell]].stiffness);
+    const auto nodes = mesh.cells.nodes_of(cell);
+    const int count = mesh.cells.corner_count(cell);
+    const auto k =
+        element_stiffness(mesh.cells.corners_of(cell), materials[mesh.cells.region[cell]].stiffness);
     for (int a = 0; a < count; ++a)
       for (int b = 0; b < count; ++b) {
         const int low = nodes[a], high = nodes[b];

@@ -53,13 +53,13 @@ double dense_frequency(const Mesh& mesh, const std::vector<Material>& materials)
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(2 * n);
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
-    const std::span<const Vector2> corners{mesh.cells.corners.data() + first,
-                                           static_cast<std::size_t>(count)};
+    const int count = mesh.cells.corner_count(cell);
+    const auto corners = mesh.cells.corners_of(cell);
+    const auto nodes = mesh.cells.nodes_of(cell);
     const Material& material = materials[mesh.cells.region[cell]];
     const ElementStiffness element = element_stiffness(corners, material.stiffness);
     const auto areas = corner_areas(corners);
-    const auto dof = [&](int q) { return 2 * mesh.cells.corner_nodes[first + q / 2] + q % 2; };
+    const auto dof = [&](int q) { return 2 * nodes[q / 2] + q % 2; };
     for (int p = 0; p < 2 * count; ++p) {
       mass[dof(p)] += material.density * areas[p / 2];
       for (int q = 0; q < 2 * count; ++q) k(dof(p), dof(q)) += element(p, q);

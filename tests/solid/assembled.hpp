@@ -27,12 +27,13 @@ inline OwnedMat assembled_stiffness(MPI_Comm comm, const Mesh& mesh, const std::
   petsc(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE));
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     if (!mesh.cells.owned[cell]) continue;
-    const int first = mesh.cells.first[cell], count = mesh.cells.corner_count(cell);
-    const auto k = element_stiffness({mesh.cells.corners.data() + first, static_cast<std::size_t>(count)},
-                                     materials[mesh.cells.region[cell]].stiffness);
+    const auto nodes = mesh.cells.nodes_of(cell);
+    const int count = mesh.cells.corner_count(cell);
+    const auto k =
+        element_stiffness(mesh.cells.corners_of(cell), materials[mesh.cells.region[cell]].stiffness);
     std::array<PetscInt, 4> rows{};
     for (int c = 0; c < count; ++c) {
-      const int node = mesh.cells.corner_nodes[first + c];
+      const int node = nodes[c];
       rows[c] = node < owned ? offset + node : mesh.nodes.ghosts[node - owned];
     }
     petsc(MatSetValuesBlocked(matrix, count, rows.data(), count, rows.data(), k.data(), ADD_VALUES));

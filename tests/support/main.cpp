@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     listeners.Append(new Quiet);
   }
   int failed = RUN_ALL_TESTS();
+  if (testing::UnitTest::GetInstance()->test_to_run_count() == 0) failed = 1;  // nothing run is no success
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   if (PetscFinalize()) failed = 1;
   MPI_Finalize();

@@ -10,7 +10,7 @@ namespace {
 
 Recipe discs(double height, double fraction, int elements, CellShape shape) {
   Recipe recipe;
-  recipe.room.block.high = {1, height};
+  recipe.room.block.upper = {1, height};
   recipe.room.periodic = {true, true};
   Family family;
   family.region = "inclusion";

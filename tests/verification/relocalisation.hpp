@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "../cell/grids.hpp"
 #include "cells_checks.hpp"
+#include "grids.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/homogenize/localisation_file.hpp"
 #include "slipscale/relocalize/localisation_reader.hpp"

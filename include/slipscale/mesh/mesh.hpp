@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,12 @@ struct Cells {
 
   int size() const { return static_cast<int>(number.size()); }
   int corner_count(int cell) const { return first[cell + 1] - first[cell]; }
+  std::span<const Vector2> corners_of(int cell) const {  ///< counter-clockwise, m
+    return std::span(corners).subspan(first[cell], corner_count(cell));
+  }
+  std::span<const int> nodes_of(int cell) const {  ///< local node of each corner
+    return std::span(corner_nodes).subspan(first[cell], corner_count(cell));
+  }
 };
 
 /// What the partition costs; one entry a rank.
@@ -84,7 +91,8 @@ struct Mesh {
   Vector2 lower{}, upper{};        ///< bounding box of the cells, m
   double shortest_edge = 0;        ///< m
   std::string file;
-  std::uint64_t checksum = 0;  ///< FNV-1a of the file's bytes
+  std::uint64_t checksum = 0;      ///< FNV-1a of the file's bytes
+  std::vector<std::string> notes;  ///< what was made of the file, one sentence each, for the user to see
   PartitionReport partition;
 
   const Boundary* find_boundary(const std::string& name) const;

@@ -23,6 +23,7 @@ struct Bilinear {
 Eigen::Matrix2d jacobian(std::span<const Vector2> corners, const Bilinear& shape);
 
 double triangle_area(std::span<const Vector2> corners);  ///< m², negative when clockwise
+double cell_area(std::span<const Vector2> corners);      ///< the same of either kind of cell
 
 /// Values of the shape functions at `point` when it lies in the cell (tolerance 1e-9 of its size); false
 /// otherwise.
