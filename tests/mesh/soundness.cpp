@@ -89,6 +89,10 @@ TEST(Soundness, NodeOnAnEdgeThatItIsNoEndOf) {
 }
 
 TEST(Soundness, Overlap) {
+  expect(complaint(mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, .5}, {2, .6}, {2, 2.5}},
+                           {{1, 2, 3, 4}, {5, 6, 7}})),
+         "bodies overlap", "BooleanFragments");
+  // A corner of the one lies on a side of the other, besides.
   expect(complaint(
              mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5, .5}, {2, .6}, {2, 2}}, {{1, 2, 3, 4}, {5, 6, 7}})),
          "bodies overlap", "BooleanFragments");

@@ -208,7 +208,7 @@ def unglued(mesh):
     while not lines[k].startswith("$"):
         dimension, entity, _, size = map(int, lines[k].split())
         for at in range(k + 1, k + 1 + size):
-            if (dimension, entity) == (2, 2):
+            if (dimension, entity) in ((2, 2), (1, 201), (1, 301)):  # surface and sides of the upper layer
                 tag, *nodes = lines[at].split()
                 lines[at] = " ".join([tag, *(middle.get(node, (node,))[0] for node in nodes)])
         k += 1 + size
