@@ -35,6 +35,7 @@ Material from_file(const std::string& option, const std::string& path) {
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
   material.description = six_numbers(material.stiffness) + format(", {:.4g} kg/m3 ({})", file.density, path);
+  if (!file.doubt.empty()) material.description += "; DOUBTFUL: " + file.doubt;
   return material;
 }
 
