@@ -52,6 +52,17 @@ Schema operator+(Schema left, const Schema& right) {
   return left;
 }
 
+std::vector<std::string> names_in(const Schema& schema, const std::string& beginning,
+                                  const std::string& filling) {
+  std::vector<std::string> found;
+  for (const Option& option : schema) {
+    const names::Pattern parts = names::pattern(option.name);
+    if (!option.name.starts_with(beginning) || names::ignored(parts)) continue;
+    found.push_back(parts.placeholder.empty() ? option.name : parts.prefix + filling + parts.suffix);
+  }
+  return found;
+}
+
 std::optional<std::string> Options::value(const std::string& name) const {
   const Match found = match(name);
   if (!found.option) throw std::logic_error("option '" + name + "' is read but no schema declares it");

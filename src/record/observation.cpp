@@ -69,7 +69,8 @@ void Observer::observe_boundaries(Observation& seen) const {
     Vector2 normal = body_.model().mesh.find_boundary(body_.boundary_names()[b])->normal;
     if (normal[0] == 0 && normal[1] == 0) normal = {0, 1};
     Vector2 tangent{normal[1], -normal[0]};
-    if (tangent[0] < -1e-12 || (std::abs(tangent[0]) <= 1e-12 && tangent[1] < 0))
+    constexpr double upright = 1e-6;  // rounding tilts a straight side by far less
+    if (tangent[0] < -upright || (std::abs(tangent[0]) <= upright && tangent[1] < 0))
       tangent = {-tangent[0], -tangent[1]};
     seen.boundaries.push_back(
         {sum[0] * normal[0] + sum[1] * normal[1], sum[0] * tangent[0] + sum[1] * tangent[1]});
@@ -82,7 +83,7 @@ void Observer::observe_contact(Observation& seen) const {
   std::vector<double> mine;
   for (int k = 0; k < contact.size(); ++k) {
     const Vector2& u = body_.displacement_n()[contact.node[k]];
-    mine.insert(mine.end(), {u[0], u[1], body_.velocity()[contact.node[k]][0], contact.traction[k],
+    mine.insert(mine.end(), {u[0], u[1], body_.velocity_n()[contact.node[k]][0], contact.traction[k],
                              contact.force[k][1], static_cast<double>(contact.status[k])});
   }
   const auto all = contact_gather_(mine, width);

@@ -6,7 +6,7 @@
 #include "slipscale/base/print.hpp"
 #include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/element.hpp"
-#include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/stress.hpp"
 
 namespace slipscale {
 namespace {
@@ -111,7 +111,7 @@ bool Probes::place_in_cell(MPI_Comm comm, const Mesh& mesh, int point) {
 std::vector<ProbeReading> Probes::read(const SlidingBody& body) const {
   std::vector<double> states, stresses;
   for (int node : own_node_) {
-    const Vector2 &u = body.displacement_n()[node], &v = body.velocity()[node];
+    const Vector2 &u = body.displacement_n()[node], &v = body.velocity_n()[node];
     states.insert(states.end(), {u[0], u[1], v[0], v[1]});
   }
   const Model& model = body.model();

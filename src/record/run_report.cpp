@@ -5,6 +5,7 @@
 
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
+#include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/files/yaml.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/version.hpp"
@@ -94,10 +95,13 @@ std::string Recorder::finish() {
   share_faults();
   if (statistics_) statistics_->write(folder_.path());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  std::vector<std::string> remarks = remarks_at_start(body_);
+  for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
+  const Momentum momentum = body_.momentum();
   std::string text;
   if (rank_of(body_.comm()) == 0)
-    text =
-        summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_, seconds});
+    text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_,
+                         seconds, std::move(remarks), momentum});
   folder_.write_text("summary.yaml", text);
   return text;
 }

@@ -16,6 +16,8 @@ struct SummaryInput {
   long history_every;                    ///< steps
   double largest_residual;               ///< relative to what flowed
   double seconds;                        ///< wall time of the steps
+  std::vector<std::string> remarks;      ///< on the scene and the run, a sentence each
+  Momentum momentum;                     ///< at the end
 };
 
 /// summary.yaml: the headline numbers, averages over the second half of the run. Rank 0.

@@ -45,6 +45,11 @@ using Schema = std::vector<Option>;
 
 Schema operator+(Schema left, const Schema& right);
 
+/// The options of a schema that begin with `beginning`, placeholders filled in with `filling`: what a reader
+/// of a group of options goes through, so that one declared later is not forgotten.
+std::vector<std::string> names_in(const Schema& schema, const std::string& beginning = "",
+                                  const std::string& filling = "");
+
 /// Where the user wrote an option. The later place has the last word: the scene files one after the other,
 /// then the command line.
 struct Origin {
