@@ -60,7 +60,7 @@ void slide(Options& options) {
   options.refuse_unknown();
 
   SlidingBody body(comm, model, scene, step.step);
-  for (const std::string& remark : remarks_at_start(body)) print(remark + "\n");
+  for (const std::string& remark : remarks_at_start(body)) print("note: " + remark + "\n");
   Recorder recorder(body, record, step);
   recorder.write_run(options);
   print(recorder.forecast());

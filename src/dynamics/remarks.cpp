@@ -47,6 +47,21 @@ struct Found {
   }
 };
 
+/// " of boundary 'a', 'b'": those that hold one of the edges (ascending local nodes). Collective.
+std::string names_of(MPI_Comm comm, const Mesh& mesh, std::vector<std::array<int, 2>> edges) {
+  std::ranges::sort(edges);
+  std::vector<int> holds;
+  for (const Boundary& boundary : mesh.boundaries)
+    holds.push_back(std::ranges::any_of(boundary.edges, [&](const BoundaryEdge& edge) {
+      return std::ranges::binary_search(edges, ascending(edge.nodes));
+    }));
+  MPI_Allreduce(MPI_IN_PLACE, holds.data(), static_cast<int>(holds.size()), MPI_INT, MPI_MAX, comm);
+  std::string text;
+  for (std::size_t b = 0; b < holds.size(); ++b)
+    if (holds[b]) text += (text.empty() ? " of boundary '" : ", '") + mesh.boundaries[b].name + "'";
+  return text;
+}
+
 /// Edges at or below the height of the lowest contact node: what is level with it, or will meet the surface
 /// before it does.
 std::string uncovered(const SlidingBody& body) {
@@ -56,6 +71,7 @@ std::string uncovered(const SlidingBody& body) {
   for (int i : contact.nodes) lowest = std::min(lowest, mesh.nodes.position[i][1]);
   MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_DOUBLE, MPI_MIN, body.comm());
   Found found;
+  std::vector<std::array<int, 2>> low_edges;
   for (const OuterEdge& edge : edges_left_out(mesh, contact)) {
     const int lower = mesh.nodes.number[edge.nodes[0]] < mesh.nodes.number[edge.nodes[1]] ? 0 : 1;
     if (edge.nodes[lower] >= mesh.nodes.owned) continue;  // counted by the rank of that node
@@ -66,16 +82,16 @@ std::string uncovered(const SlidingBody& body) {
     found.count += 1;
     found.add(a, low);
     found.add(b, low);
+    low_edges.push_back(ascending(edge.nodes));
   }
   found.share(body.comm());
   if (found.count == 0) return "";
   return format(
-      "note: {:g} outer edges between x = {:g} and {:g} m lie as low as boundary '{}' or lower but do not "
-      "belong "
-      "to it, so that nothing keeps them from sinking through the surface; give them its name where they "
-      "should "
+      "{:g} outer edges{} between x = {:g} and {:g} m lie as low as boundary '{}' or lower but do not belong "
+      "to "
+      "it, so that nothing keeps them from sinking through the surface; give them its name where they should "
       "touch",
-      found.count, found.reach[0], -found.reach[1], contact.name);
+      found.count, names_of(body.comm(), mesh, low_edges), found.reach[0], -found.reach[1], contact.name);
 }
 
 std::string sunk(const SlidingBody& body) {
@@ -97,7 +113,7 @@ std::string sunk(const SlidingBody& body) {
   found.share(body.comm());
   if (found.count == 0) return "";
   return format(
-      "note: at the end {:g} outer nodes between x = {:g} and {:g} m that are not in the contact lie below "
+      "at the end {:g} outer nodes between x = {:g} and {:g} m that are not in the contact lie below "
       "the "
       "surface, the deepest by {}; name their edges like boundary '{}' where they should touch",
       found.count, found.reach[0], -found.reach[1], engineering(-found.reach[2], "m"), contact.name);
@@ -106,8 +122,8 @@ std::string sunk(const SlidingBody& body) {
 std::string memory_below_step(const SlidingBody& body) {
   const double memory = shortest_memory(body.scene().friction, body.scene().surface->speed);
   if (!(memory > 0 && memory < body.time_step())) return "";
-  return "note: the relaxation time of friction, " + engineering(memory, "s") +
-         ", is shorter than the step, " + engineering(body.time_step(), "s") +
+  return "the relaxation time of friction, " + engineering(memory, "s") + ", is shorter than the step, " +
+         engineering(body.time_step(), "s") +
          ", so that friction acts as Coulomb's, whose results depend on mesh and step; give a longer "
          "-friction_length (or -friction_time), or a smaller step";
 }
@@ -127,7 +143,7 @@ std::vector<std::string> remarks_at_start(const SlidingBody& body) {
 std::vector<std::string> remarks_at_end(const SlidingBody& body) {
   if (!body.scene().surface) return {};
   return those_that_speak(
-      {body.has_touched() ? "" : "note: the body never touched the surface; nothing here is about contact",
+      {body.has_touched() ? "" : "the body never touched the surface; nothing here is about contact",
        sunk(body)});
 }
 

@@ -138,7 +138,10 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   if (!(count <= most_steps))  // nor is it a number where the step is next to nothing
     throw UserError(
         format("-time_end is {:g} s, which takes {:g} steps of {:g} s; a run has at most {:g} steps",
-               time.end, count, choice.step, most_steps));
+               time.end, count, choice.step, most_steps) +
+        (time.step ? ", so give a longer -time_step, or auto"
+                   : "; where the step is far too short, look for the cause in the materials, in "
+                     "-damping_stiffness or in the unit of the mesh"));
   choice.count = static_cast<long>(count);
   return choice;
 }
