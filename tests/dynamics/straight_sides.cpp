@@ -99,7 +99,7 @@ TEST(StraightSides, ForceIsCarriedInEquilibrium) {
   for (int i : mesh.find_boundary("top")->nodes)
     EXPECT_NEAR(body.displacement_n()[i][1] / expected, 1, 1e-10);
   EXPECT_NEAR(support_force(body, "bottom")[1] / -force, 1, 1e-10);
-  EXPECT_NEAR(body.energy().loads / (-force * expected * -1), 1, 1e-10);
+  EXPECT_NEAR(body.energy().loads / (-force * expected), 1, 1e-10);
 }
 
 /// Nothing holds body and plate: together they gain F t along y, and where the plate may tilt no angular
@@ -116,7 +116,7 @@ TEST(StraightSides, FreeFlightGainsTheImpulseOfTheForce) {
       for (int n = 0; n <= 400; ++n) body.advance(n == 400);
       const Momentum momentum = body.momentum();
       const PlateMotion v = velocity_of_plate(body);
-      EXPECT_NEAR(momentum.mass, 1.2 * height + 0.8 * height * 2, 0.1);
+      EXPECT_NEAR(momentum.mass, mesh.regions[0].area + 2 * mesh.regions[1].area, 1e-13);
       EXPECT_NEAR(momentum.linear[0], 0, 1e-13);
       EXPECT_NEAR((momentum.linear[1] + mass * v[0]) / (force * body.time()), 1, 1e-11);
       if (straight == Straight::tilting) {
