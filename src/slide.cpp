@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "commit.hpp"
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
@@ -49,8 +50,7 @@ void slide(Options& options) {
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
   const Model::Storage storage = read_storage(options);
-  options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  end_reading(options);
   const Model model(mesh, materials, storage);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
@@ -82,5 +82,5 @@ int main(int argc, char** argv) {
       {"slide",
        "Explicit dynamics of a deformable block that is pressed on a rigid surface moving under it: "
        "beta2 time scheme, Lagrange multipliers for contact, regularised Coulomb friction.",
-       periodic_mesh_schema() + material_schema() + scene_schema() + record_schema(), slide});
+       periodic_mesh_schema() + material_schema() + scene_schema() + record_schema(), slide, commit});
 }

@@ -1,22 +1,21 @@
 """Error against seconds, and time and memory against size, of a table of `homogenize` runs.
 
-    PYTHONPATH=runs /usr/bin/python3 -m accuracy.work_precision out/accuracy/table.csv picture.png
+    python3 -m accuracy.work_precision out/accuracy/table.csv picture.png
         [--orientation runs/accuracy/study.yaml]
 
 The table has the columns element, size (elements across the cell), solver, rtol, those of slipscale.reading.effective and
 error_C11. Of repeated runs the quickest counts.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
-import yaml
-
 from slipscale.measuring.convergence import fit_power
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.reading import UnreadableRun
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import quickest, read_csv
 
 OPTIONS = ("element", "size", "solver", "rtol")
@@ -165,12 +164,12 @@ def draw(rows, orientation=()):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("accuracy.work_precision", __doc__, "python3 -m")
     parser.add_argument("table", help="CSV of the runs")
     parser.add_argument("--orientation", type=Path, help="YAML file whose entry `orientation` lists other codes")
 
     def figure(options):
-        known = yaml.safe_load(options.orientation.read_text())["orientation"] if options.orientation else []
+        known = load(options.orientation)["orientation"] if options.orientation else []
         return draw(read_csv(options.table), known)
 
     return write_picture(parser, figure, arguments)

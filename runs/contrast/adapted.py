@@ -2,9 +2,8 @@
 
 from pathlib import Path
 
-import yaml
-
 from contrast.morphologies import COMPOSITE
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import OUTCOME
 
 COMPARED = ("spectrum_distance", "power", "friction", "frequency", "amplitude", "stick", "slip", "open")
@@ -22,13 +21,13 @@ def adapted_rows(outcome):
     the `folder` of the run after.
     """
     outcome = Path(outcome)
-    ended = yaml.safe_load(outcome.read_text())
+    ended = load(outcome, written=True)
     options = {**ended["options"], "model": "adapted"}
     costs = {name: ended[name] for name in OUTCOME if name not in ("status", "reason")}
     file = outcome.parent / "adapt.yaml"
     if not file.is_file() or str(ended["reason"]).startswith("the run was not started"):
         return [{**options, **{name: ended[name] for name in OUTCOME}}]
-    found = yaml.safe_load(file.read_text())
+    found = load(file, written=True)
     before = {f"before_{name}": found["before"][name] for name in COMPARED}
     rows = []
     for level, said in found["levels"].items():

@@ -1,12 +1,11 @@
 """Draws what adapting a homogeneous model did: two spectra before and after, and the distances of all adaptations.
 
-    PYTHONPATH=runs python3 -m contrast.adapted_picture OUT PICTURE.png --window FROM TO
+    python3 -m contrast.adapted_picture OUT PICTURE.png --window FROM TO
 
 OUT is the output of the study: table.csv, run/ and adapt/. The two cases are chosen by
 `examples`.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import numpy as np
 from contrast.adapted import before_of, best_level, cases_of, left_by
 from contrast.morphologies import COMPOSITE
 from slipscale.measuring.regime import friction_spectrum
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import write_picture
 from slipscale.reading import UnreadableRun
@@ -109,7 +109,7 @@ def draw(options):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("contrast.adapted_picture", __doc__, "python3 -m")
     parser.add_argument("out", help="output folder of the study")
     parser.add_argument("--window", nargs=2, type=float, required=True, metavar=("FROM", "TO"), help="s")
     return write_picture(parser, draw, arguments)

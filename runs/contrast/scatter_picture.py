@@ -1,17 +1,17 @@
 """Draws how amplitude, frequency and friction of morphologies scatter, beside their homogenised blocks.
 
-    PYTHONPATH=runs python3 -m contrast.scatter_picture TABLE.csv PICTURE.png [--block 5]
+    python3 -m contrast.scatter_picture TABLE.csv PICTURE.png [--block 5]
 
 A column for each modulus of the inclusions and each ratio of block to disc; a point for each morphology.
 """
 
-import argparse
 import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 from contrast.morphologies import groups_of, paired
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, ORANGE, SKY
 from slipscale.pictures.drawing import write_picture
 from slipscale.running.table import read_csv
@@ -60,7 +60,7 @@ def draw(rows, block):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("contrast.scatter_picture", __doc__, "python3 -m")
     parser.add_argument("table", help="table.csv of the study")
     parser.add_argument("--block", type=float, default=5.0, help="width of the block, mm")
     return write_picture(parser, lambda options: draw(read_csv(options.table), options.block), arguments)

@@ -3,10 +3,9 @@ run, a row with the verdict for each; run by the Snakefile."""
 
 from pathlib import Path
 
-import yaml
-
 from equivalence.verdict import points
 from slipscale.measuring.regime import costs, measures
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import collect, write_csv
 
 job = snakemake  # noqa: F821
@@ -14,7 +13,7 @@ windows = {name: [float(end) for end in window] for name, window in job.params.w
 
 
 def window_of(folder):
-    return windows[yaml.safe_load((folder / "outcome.yaml").read_text())["options"]["window"]]
+    return windows[load(folder / "outcome.yaml", written=True)["options"]["window"]]
 
 
 rows = collect(job.input.outcomes, lambda folder: {**measures(folder, window_of(folder)), **costs(folder)})

@@ -1,6 +1,6 @@
 """Where a homogenised block is equivalent to the composite and where not: verdicts of a table on maps over two options.
 
-    PYTHONPATH=runs python3 -m equivalence.map_picture out/equivalence/verdicts.csv picture.png --over friction load
+    python3 -m equivalence.map_picture out/equivalence/verdicts.csv picture.png --over friction load
         [--where memory=T0.6 speed=2] [--panel block] [--unit load=MPa]
 
 Colour is the verdict of `equivalence.verdict`, with the strongest frequency of composite / homogenised block in kHz
@@ -8,10 +8,10 @@ and below it how far the homogenised block's spectrum is from the morphologies' 
 still grew or fell.
 """
 
-import argparse
 import sys
 
 from equivalence.verdict import SETTLED, VERDICTS
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.maps import FAILED, map_panel, pairs, selected
@@ -79,7 +79,7 @@ def handles(shades, rows):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("equivalence.map_picture", __doc__, "python3 -m")
     parser.add_argument("table", help="verdicts.csv of the study")
     parser.add_argument("--over", nargs=2, required=True, metavar=("X", "Y"), help="options of the axes")
     parser.add_argument("--panel", help="option that has a panel for each of its values")

@@ -1,6 +1,6 @@
 """Several morphologies of a composite and their homogenised blocks in one picture: portraits, spectra, shares, verdict.
 
-    PYTHONPATH=runs python3 -m equivalence.picture picture.png --composites FOLDER... --homogenised FOLDER...
+    python3 -m equivalence.picture picture.png --composites FOLDER... --homogenised FOLDER...
         --window 250e-6 400e-6 [--point 0]
 
 The k-th homogenised block is that of the k-th morphology, and is drawn with it. The last panel has every distance over
@@ -8,7 +8,6 @@ the largest that the scatter of the morphologies allows (`equivalence.verdict`):
 near to the morphologies as they are to each other.
 """
 
-import argparse
 import sys
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from equivalence.verdict import SCALARS, judge, read_run, verdict
 from slipscale.measuring.regime import HIGHEST
 from slipscale.measuring.window import MICRO, in_words
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.overlay import COLOURS
@@ -48,7 +48,7 @@ def spectra(axes, composites, homogenised, window):
     axes.set(ylim=(top * 1e-3, top * 1.6), xlim=(0, HIGHEST / 1e3), xlabel="frequency [kHz]", ylabel="√density [1/√Hz]",
              title=f"Spectrum of T / mean N at the top, {in_words(window)}")
     axes.grid(alpha=0.25)
-    axes.legend(fontsize="small", framealpha=0.9)
+    axes.legend(fontsize="small", framealpha=0.9, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=3)
 
 
 def dots(axes, line, composites, homogenised):
@@ -65,7 +65,7 @@ def shares(axes, composites, homogenised):
     axes.set_ylim(len(SHARES) - 0.5, -0.5)
     axes.set_xlim(left=min(0, axes.get_xlim()[0]))
     axes.grid(alpha=0.25)
-    axes.set(title="Fractions, friction, power [1]", xlabel="dots: morphologies, bars: homogenised")
+    axes.set(title="Fractions, friction, power [1]", xlabel="dots: morphologies,\nbars: homogenised")
 
 
 def distances(axes, composites, homogenised):
@@ -79,8 +79,7 @@ def distances(axes, composites, homogenised):
     axes.set_yticks(range(len(JUDGED)), [name.replace("_", " ") for name in JUDGED])
     axes.set_ylim(len(JUDGED) - 0.5, -0.5)
     axes.grid(alpha=0.25)
-    axes.set(title=f"Distance over that allowed: {verdict(composites, homogenised)}",
-             xlabel="to the mean of the (other) morphologies")
+    axes.set(title="Distance over that allowed", xlabel="to the mean of the\n(other) morphologies")
 
 
 def draw(options):
@@ -98,7 +97,7 @@ def draw(options):
         spacing = [length / each.portrait.shape[1] if each else None for each in (run, own)]
         portrait(axes, run, own, spacing, COLOURS[k % len(COLOURS)], f"morphology {k + 1}")
     panels[0].set_ylabel("tangential velocity of M [m/s]")
-    above.suptitle(f"Phase portraits of M over {SHOWN * MICRO:.0f} µs; grey: the homogenised block of that morphology",
+    above.suptitle(f"Verdict: {verdict(composites, homogenised)}\nPhase portraits of M over {SHOWN * MICRO:.0f} µs; grey: the homogenised block of that morphology",
                    fontsize=12)
     left, middle, right = below.subplots(1, 3, width_ratios=[1.6, 1, 1.1])
     spectra(left, composites, homogenised, options.window)
@@ -108,7 +107,7 @@ def draw(options):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("equivalence.picture", __doc__, "python3 -m")
     parser.add_argument("--composites", nargs="+", required=True, help="output folders of `slide`, two at least")
     parser.add_argument("--homogenised", nargs="+", required=True, help="output folders of `slide`")
     parser.add_argument("--window", nargs=2, type=float, required=True, metavar=("FROM", "TO"), help="s")

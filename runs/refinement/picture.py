@@ -1,13 +1,12 @@
 """A sequence of refinements in one picture: portraits, errors over size and over price, averages over size.
 
-    PYTHONPATH=runs /usr/bin/python3 -m refinement.picture out/refinement/table.csv before picture.png
+    python3 -m refinement.picture out/refinement/table.csv before picture.png
         [--variants coulomb T30 --size 0.25e-3 0.1e-3 --window 0 40e-6]
 
 The options draw phase portraits of the probe point: a panel for each variant, the runs with these sizes or steps above
 each other. The runs lie beside the table, in the folder `run`.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -17,9 +16,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from refinement.orders import CONVERGES, found_in
 from refinement.sequences import SAME
 from slipscale.measuring.window import in_words
+from slipscale.parser import Parser
 from slipscale.pictures import overlay
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
-from slipscale.pictures.drawing import PREFIXES, plt, write_picture
+from slipscale.pictures.drawing import PREFIXES, few_ticks, plt, write_picture
 from slipscale.reading import UnreadableRun
 from slipscale.running.table import read_csv
 
@@ -109,6 +109,7 @@ def price_panel(axes, found, look, name, label):
     for each in found:
         known = np.isfinite(each.errors) & (each.errors > 0)
         axes.loglog(getattr(each, name)[known], each.errors[known], "-", **look.of(each.variant))
+    few_ticks(axes.xaxis)
     low, high = axes.get_xlim()
     if high > 20 * low:
         axes.xaxis.set_minor_formatter(NullFormatter())
@@ -222,7 +223,7 @@ def draw(options):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("refinement.picture", __doc__, "python3 -m")
     parser.add_argument("table", type=Path, help="table.csv of the study")
     parser.add_argument("sequence", help="its name")
     parser.add_argument("--variants", nargs="*", default=[], help="whose portraits are drawn")

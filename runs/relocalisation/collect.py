@@ -3,16 +3,16 @@
 from pathlib import Path
 
 import numpy as np
-import yaml
 
 from relocalisation.comparison import compare_phases, read_comparison
 from slipscale.reading import Statistics, Summary
 from slipscale.reading.mesh import centroids_and_areas
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import collect, write_csv
 
 
 def outcome_of(path):
-    return yaml.safe_load(Path(path).read_text())
+    return load(path, written=True)
 
 
 def costs(run, before):

@@ -1,38 +1,59 @@
 # What the Snakefiles of all studies share: where things are, how a program is started, and that a failure is a result.
 # A study's Snakefile includes this first. Everything in its study.yaml can be overruled, with --config or --configfile;
-# --config study=FILE takes another file in its place (relative to the top of the repository).
+# --config study=FILE takes another file in its place. Files are found and results written from where the user stands
+# (or --directory says), files that come with a study from the folder that holds `runs` too.
 import os
+import shlex
 import shutil
 import sys
 from pathlib import Path
 
 TOP = Path(workflow.basedir).parents[1]
 sys.path.insert(0, str(TOP / "runs"))
+from slipscale.mistakes import Mistake
+from slipscale.running import programs, studies
 from slipscale.running.commands import settings, words
 from slipscale.running.table import named_runs, run_name
 
-STUDY = TOP / config.get("study", f"{workflow.basedir}/study.yaml")
-config.clear()  # what overrules it is laid over it, so that a null there can take the place of a whole entry
-configfile: STUDY
-workdir: TOP
+try:
+    SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"), workflow.overwrite_configfiles,
+                                   workflow.overwrite_config, workflow.config_args)
+except Mistake as mistake:
+    sys.exit(f"{workflow.basedir}: {mistake}")
+config.clear()
+config.update(SETTINGS)
 
 OUT = config["output"]
-PROGRAMS = TOP / config["programs"]
+PROGRAMS = programs.folder(config["programs"])
 JOB = "{SLURM_ARRAY_TASK_ID}/{SLURM_ARRAY_TASK_COUNT}".format_map(
     {"SLURM_ARRAY_TASK_ID": 1, "SLURM_ARRAY_TASK_COUNT": 1, **os.environ})
-ATTEMPT = f"{sys.executable} -m slipscale.running.attempt"
+PYTHON = shlex.quote(sys.executable)
+ATTEMPT = f"{PYTHON} -m slipscale.running.attempt"
+SLIPSCALE = f"{PYTHON} -m slipscale"
 
 # Unbound: several runs at a time would else all be bound to the same first cores.
-os.environ.update(PYTHONPATH=str(TOP / "runs"), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1",
-                  OMPI_MCA_hwloc_base_binding_policy="none")
+os.environ.update(PYTHONPATH=str(TOP / "runs"), SLIPSCALE_PROGRAMS=str(PROGRAMS), OMP_NUM_THREADS="1",
+                  OPENBLAS_NUM_THREADS="1", OMPI_MCA_hwloc_base_binding_policy="none")
 if os.getuid() == 0:  # as in a container
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                       OMPI_MCA_btl_vader_single_copy_mechanism="none")
+
+found_from_here = studies.finder(TOP)
 
 
 def outcome_of(kind, name):
     """How `name`, a mesh, an effective material or a run, ended: a path."""
     return f"{OUT}/{kind}/{name}/outcome.yaml"
+
+
+def quoted(paths):
+    """Paths as words for a shell."""
+    return shlex.join(map(str, paths))
+
+
+def readme_of(folder):
+    """The README that is renewed, or None: only that of what the study itself says, not of what is laid over it."""
+    return folder if config["readme"] else None
 
 
 def on_ranks(ranks):
@@ -46,6 +67,13 @@ def part_of(names, part):
     """Of `names`, every n-th beginning with the k-th, for a `part` k/n: so long and short runs are spread evenly."""
     k, n = map(int, str(part).split("/"))
     return list(names)[k - 1::n]
+
+
+def say_what_is_run():
+    """How many runs there are, and of which groups, before anything runs."""
+    if not os.environ.get("SLIPSCALE_STUDY_SAID"):
+        print(studies.what_is_run(config, RUNS), file=sys.stderr, flush=True)
+        os.environ["SLIPSCALE_STUDY_SAID"] = "1"  # once, not by each job that reads this again
 
 
 # One of n parts of the runs, --config part=k/n or the part of a task in an array of Slurm's: for several snakemakes,

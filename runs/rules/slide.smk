@@ -29,8 +29,8 @@ rule mesh:
     params:
         options=lambda wanted: words(mesh_options(wanted.mesh))
     shell:
-        ATTEMPT + " {output} --limit {config[limit]} -- {input.program} {params.options}"
-        " -output_folder $(dirname {output})"
+        ATTEMPT + " {output:q} --limit {config[limit]} -- {input.program:q} {params.options}"
+        ' -output_folder "$(dirname {output:q})"'
 
 
 rule homogenize:
@@ -41,8 +41,8 @@ rule homogenize:
     params:
         options=lambda wanted: words({"cell_estimate_error": False, **effective_of(wanted.effective)[1]})
     shell:
-        ATTEMPT + " {output} --after {input.mesh} --limit {config[limit]} -- {input.program}"
-        " -mesh_file $(dirname {input.mesh})/mesh.msh {params.options} -output_folder $(dirname {output})"
+        ATTEMPT + " {output:q} --after {input.mesh:q} --limit {config[limit]} -- {input.program:q}"
+        ' -mesh_file "$(dirname {input.mesh:q})"/mesh.msh {params.options} -output_folder "$(dirname {output:q})"'
 
 
 # On one rank unless the scene asks for more: a study has runs enough to keep every core busy.
@@ -54,7 +54,7 @@ rule slide:
     output: OUT + "/run/{name}/outcome.yaml"
     params:
         set=lambda run: settings(RUNS[run.name]),
-        after=lambda run: " ".join(before_slide(run).values()),
+        after=lambda run: quoted(before_slide(run).values()),
         mpirun=lambda run: on_ranks(scene_of(run.name).get("ranks", 1)),
         options=slide_options
     threads: lambda run: int(scene_of(run.name).get("ranks", 1))
@@ -62,5 +62,5 @@ rule slide:
         ranks=lambda run: int(scene_of(run.name).get("ranks", 1)),
         runtime=minutes
     shell:
-        ATTEMPT + " {output} --after {params.after} --limit {config[limit]} --set {params.set} --"
-        " {params.mpirun} {input.program} {params.options} -output_folder $(dirname {output})"
+        ATTEMPT + " {output:q} --after {params.after} --limit {config[limit]} --set {params.set} --"
+        ' {params.mpirun} {input.program:q} {params.options} -output_folder "$(dirname {output:q})"'

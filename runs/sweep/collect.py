@@ -1,13 +1,13 @@
 """Collects the runs of the sweep in one table; run by the Snakefile."""
 
 from slipscale.measuring.regime import costs, measures
-from slipscale.pictures.picture import choose_window
+from slipscale.measuring.window import choose_window
 from slipscale.reading import History, UnreadableRun
 from slipscale.running.table import collect, write_csv
 
 
 def result(folder, window):
-    """What a run did in `window` (s), or by default in its last three eighths; a failure if that cannot be measured."""
+    """What a run did in `window` (s), or by default in its second half; a failure if that cannot be measured."""
     try:
         begin, end = choose_window(History(folder).time, window)
         return {"window_begin": float(begin), "window_end": float(end), **measures(folder, (begin, end)),

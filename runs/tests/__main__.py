@@ -15,6 +15,8 @@ def modules_of(tests):
     return set().union(*map(modules_of, tests))
 
 
+if unittest.defaultTestLoader.errors:
+    sys.exit("".join(unittest.defaultTestLoader.errors))
 found = modules_of(suite) | {None}
 if missed := sorted({str(path) for path in here.rglob("test_*.py")} - found):
     sys.exit(f"not found by unittest, for want of an __init__.py beside it or of tests in it: {', '.join(missed)}")

@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include "names.hpp"
 #include "slipscale/base/error.hpp"
 #include "spelling.hpp"
 
@@ -11,16 +12,6 @@ bool is_option(const std::string& argument) {
   PetscBool valid = PETSC_FALSE;
   petsc(PetscOptionsValidKey(argument.c_str(), &valid));
   return valid;
-}
-
-/// PETSc reads `-history` as the name of a log file and starts writing to it.
-void refuse_history(const std::string& argument, const std::string& program, const Schema& schema) {
-  if (spelling::fold(argument) != "-history") return;
-  for (const Option& option : schema) {
-    if (option.name.starts_with("history_"))
-      throw UserError("-history is not an option of " + program +
-                      " but opens a log file of PETSc; did you mean -" + option.name + "?");
-  }
 }
 
 void refuse_spelling(const std::string& argument) {
@@ -37,10 +28,10 @@ void refuse_spelling(const std::string& argument) {
 
 }  // namespace
 
-CommandLine read_command_line(int argc, char** argv, const std::string& program, const Schema& schema) {
+CommandLine read_command_line(int argc, char** argv) {
   CommandLine line;
   const std::vector<std::string> arguments(argv, argv + argc);
-  if (!arguments.empty()) line.arguments.push_back(arguments[0]);
+  if (!arguments.empty()) line.program = arguments[0];
   for (std::size_t k = 1; k < arguments.size(); ++k) {
     const std::string& name = arguments[k];
     if (!is_option(name))
@@ -57,7 +48,6 @@ CommandLine read_command_line(int argc, char** argv, const std::string& program,
       continue;
     }
     refuse_spelling(name);
-    refuse_history(name, program, schema);
     const std::string folded = spelling::fold(name);
     const bool file = folded == "-options_file" || folded == "-options_file_yaml";
     if (file && (!has_value || arguments[k + 1].empty()))
@@ -65,14 +55,23 @@ CommandLine read_command_line(int argc, char** argv, const std::string& program,
     // PETSc takes `-options_file scene.yaml` for YAML too.
     const bool scene = file && (folded == "-options_file_yaml" || arguments[k + 1].ends_with(".yaml") ||
                                 arguments[k + 1].ends_with(".yml"));
-    if (scene) {
-      line.scene_files.push_back(arguments[++k]);
+    if (file) {
+      (scene ? line.scene_files : line.option_files).push_back(arguments[++k]);
       continue;
     }
-    line.arguments.push_back(name);
-    if (has_value) line.arguments.push_back(arguments[++k]);
+    line.options.push_back({name.substr(1)});
+    if (has_value) line.options.back().value = arguments[++k];
   }
   return line;
+}
+
+void check_petsc_values(const CommandLine& line) {
+  for (const Written& option : line.options) {
+    const std::string wanted = names::petsc_wants(option.name, option.value);
+    if (!wanted.empty())
+      throw UserError("-" + option.name + " is '" + *option.value + "', but it must be " + wanted +
+                      " (an option of PETSc)");
+  }
 }
 
 }  // namespace slipscale

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 namespace {
 
@@ -23,6 +25,19 @@ PetscErrorCode keep_message(MPI_Comm comm, int line, const char* function, const
   return code;
 }
 
+/// The text of the lowest rank that has one; empty when none has. Collective.
+std::string first_fault(MPI_Comm comm, std::string fault) {
+  const int rank = rank_of(comm), size = ranks_of(comm);
+  int speaker = fault.empty() ? size : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
+  if (speaker == size) return "";
+  int length = static_cast<int>(fault.size());
+  MPI_Bcast(&length, 1, MPI_INT, speaker, comm);
+  fault.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(fault.data(), length, MPI_CHAR, speaker, comm);
+  return fault;
+}
+
 }  // namespace
 
 void keep_petsc_messages() { (void)PetscPushErrorHandler(keep_message, nullptr); }
@@ -42,18 +57,11 @@ void petsc(PetscErrorCode code, std::source_location where) {
 }
 
 void throw_together(MPI_Comm comm, const std::string& fault) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  int speaker = fault.empty() ? size : rank;
-  MPI_Allreduce(MPI_IN_PLACE, &speaker, 1, MPI_INT, MPI_MIN, comm);
-  if (speaker == size) return;
-  std::string text = fault;
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, speaker, comm);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), length, MPI_CHAR, speaker, comm);
-  throw UserError(text);
+  if (const std::string first = first_fault(comm, fault); !first.empty()) throw UserError(first);
+}
+
+void stop_together(MPI_Comm comm, const std::string& fault) {
+  if (const std::string first = first_fault(comm, fault); !first.empty()) throw RunError(first);
 }
 
 }  // namespace slipscale

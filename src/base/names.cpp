@@ -1,9 +1,12 @@
 #include "names.hpp"
 
+#include <petscviewer.h>
+
 #include <algorithm>
 #include <array>
 
 #include "spelling.hpp"
+#include "value.hpp"
 
 namespace slipscale::names {
 namespace {
@@ -13,26 +16,49 @@ constexpr std::array object_words = {
     "dm", "mat", "vec", "vecscatter", "ksp", "pc", "snes", "ts", "tao", "is", "sf", "mg", "sub", "fieldsplit",
     "viewer", "petscpartitioner", "petscfe", "petscspace", "petscsection", "petscdualspace"};
 
-// Those that PETSc reads in PetscFinalize would never count as used while the program runs.
-constexpr std::array system_names = {
-    "log", "log_all", "log_exclude", "log_mpe", "log_nested", "log_perfstubs", "log_summary", "log_sync",
-    "log_trace", "log_view", "log_view_memory", "info", "info_exclude", "malloc", "malloc_coalesce",
-    "malloc_debug", "malloc_dump", "malloc_hbw", "malloc_requested_size", "malloc_test", "malloc_view",
-    "malloc_view_threshold", "memory_view", "options_file", "options_left", "options_monitor",
-    "options_monitor_cancel", "options_view", "options_suppress_deprecated_warnings", "objects_dump",
-    "citations", "get_total_flops", "fp_trap", "checkstack", "check_pointer_intensity", "no_signal_handler",
-    "skip_petscrc", "start_in_debugger", "stop_for_debugger", "on_error_attach_debugger", "on_error_abort",
-    "on_error_mpiabort", "debugger_nodes", "debugger_ranks", "debugger_pause", "debug_terminal",
-    "error_output_none", "error_output_stdout", "nox", "nox_warning", "display", "tmp", "shared_tmp",
-    "not_shared_tmp", "python", "use_gpu_aware_mpi", "petsc_ci", "blas_view", "prefix_push", "prefix_pop"};
+// Those that PETSc reads in PetscFinalize would never count as used while the program runs. By what stands
+// behind them: a text or nothing, a flag or nothing, a number, a viewer (type:file:format) or nothing.
+constexpr std::array system_texts = {
+    "log", "log_all", "log_exclude", "log_mpe", "log_nested", "log_perfstubs", "log_summary", "log_trace", "info",
+    "info_exclude", "malloc_view", "memory_view", "options_file", "options_monitor", "options_monitor_cancel",
+    "objects_dump", "citations", "get_total_flops", "start_in_debugger", "on_error_attach_debugger",
+    "debugger_nodes", "debugger_ranks", "debug_terminal", "nox", "nox_warning", "display", "tmp", "python",
+    "petsc_ci", "blas_view", "prefix_push", "prefix_pop"};
+constexpr std::array system_flags = {
+    "log_sync", "log_view_memory", "malloc", "malloc_coalesce", "malloc_debug", "malloc_dump", "malloc_hbw",
+    "malloc_requested_size", "malloc_test", "options_left", "options_suppress_deprecated_warnings", "fp_trap",
+    "checkstack", "no_signal_handler", "skip_petscrc", "stop_for_debugger", "on_error_abort",
+    "on_error_mpiabort", "error_output_none", "error_output_stdout", "shared_tmp", "not_shared_tmp",
+    "use_gpu_aware_mpi"};
+constexpr std::array system_numbers = {"malloc_view_threshold", "check_pointer_intensity", "debugger_pause"};
+constexpr std::array system_viewers = {"log_view", "options_view"};
 // clang-format on
 
 bool any_of(const auto& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+bool is_truth(const std::string& text) {
+  constexpr std::array words = {"", "true", "yes", "on", "1", "false", "no", "off", "0"};
+  return any_of(words, spelling::fold(text));
+}
+
+/// "ascii", ":file", "ascii:file:ascii_xml".
+bool is_viewer(const std::string& text) {
+  const std::size_t first = std::min(text.find(':'), text.size());
+  const std::size_t second = std::min(text.find(':', first + 1), text.size());
+  const std::string type = spelling::fold(text.substr(0, first));
+  const std::string format =
+      second < text.size() ? text.substr(second + 1, text.find(':', second + 1) - second - 1) : "";
+  if (!type.empty() && type != "ascii") return false;
+  if (format.empty()) return true;
+  for (const char* const* known = PetscViewerFormats; *known; ++known)
+    if (spelling::fold(*known) == spelling::fold(format)) return true;
+  return false;
+}
+
 /// The nearest name so far and how far it is.
-struct Guess {
+struct Nearest {
   std::string name;
   std::size_t distance = static_cast<std::size_t>(-1);
 
@@ -43,25 +69,35 @@ struct Guess {
   }
 };
 
-/// Which part of the name stands for the placeholder is open: try every split, count prefix and suffix only.
-void consider_any_filling(Guess& guess, const Pattern& pattern, const std::string& name) {
+/// How far the name is at least from one of the pattern, whatever stands for the placeholder: the least over
+/// every split, which counts prefix and suffix only.
+std::size_t least_distance(const Pattern& pattern, const std::string& name) {
   const std::string folded = spelling::fold(name);
   const auto front = spelling::distances(folded, pattern.prefix);
   const auto back =
       spelling::distances({folded.rbegin(), folded.rend()}, {pattern.suffix.rbegin(), pattern.suffix.rend()});
+  std::size_t least = static_cast<std::size_t>(-1);
   for (std::size_t begin = 0; begin < name.size(); ++begin)
     for (std::size_t end = begin + 1; end <= name.size(); ++end)
-      guess.consider(pattern.prefix + name.substr(begin, end - begin) + pattern.suffix,
-                     front[begin] + back[name.size() - end], pattern.prefix.size() + pattern.suffix.size());
+      least = std::min(least, front[begin] + back[name.size() - end]);
+  return least;
 }
 
 /// `young` and `history` are parts of names: the first option that ends or begins with such a word.
-std::string containing(const std::string& word, const Schema& schema) {
+Guess containing(const std::string& word, const Schema& schema, const Known& known) {
   const std::string folded = spelling::fold(word);
-  for (const Option& option : schema)
-    if (option.name.ends_with("_" + folded) || option.name.starts_with(folded + "_"))
-      return "-" + option.name;
-  return "";
+  bool open = false;
+  for (const Option& option : schema) {
+    if (!option.name.ends_with("_" + folded) && !option.name.starts_with(folded + "_")) continue;
+    const Pattern parts = pattern(option.name);
+    if (parts.placeholder.empty()) return {"-" + option.name};
+    const auto fillings = known.find(parts.placeholder);
+    if (fillings == known.end())
+      open = open || !ignored(parts);
+    else if (!fillings->second.empty())
+      return {"-" + parts.prefix + fillings->second.front() + parts.suffix};
+  }
+  return {"", open};
 }
 
 }  // namespace
@@ -83,18 +119,34 @@ std::optional<std::string> filling(const Pattern& pattern, const std::string& na
 
 bool ignored(const Pattern& pattern) { return pattern.placeholder == "entry"; }
 
-bool petsc_object(const std::string& name) {
-  const auto first_word = [](const std::string& text) { return text.substr(0, text.find('_')); };
+bool petsc_object(const std::string& name, const std::vector<std::string>& solvers) {
+  const auto is_object = [](const std::string& text) {
+    return any_of(object_words, text.substr(0, text.find('_')));
+  };
   const std::string folded = spelling::fold(name);
-  // `-cell_ksp_rtol`: a solver of ours with its own prefix.
-  return any_of(object_words, first_word(folded)) ||
-         (folded.starts_with("cell_") && any_of(object_words, first_word(folded.substr(5))));
+  return is_object(folded) || std::any_of(solvers.begin(), solvers.end(), [&](const std::string& prefix) {
+           return folded.starts_with(prefix) && is_object(folded.substr(prefix.size()));
+         });
 }
 
-bool petsc_system(const std::string& name) { return any_of(system_names, spelling::fold(name)); }
+bool petsc_system(const std::string& name) {
+  const std::string folded = spelling::fold(name);
+  return any_of(system_texts, folded) || any_of(system_flags, folded) || any_of(system_numbers, folded) ||
+         any_of(system_viewers, folded);
+}
 
-std::string meant(const std::string& name, const Schema& schema, const Known& known) {
-  Guess guess;
+std::string petsc_wants(const std::string& name, const std::optional<std::string>& value) {
+  const std::string folded = spelling::fold(name);
+  if (any_of(system_flags, folded) && !is_truth(value.value_or(""))) return "true or false";
+  if (any_of(system_numbers, folded) && !value::number(value.value_or(""))) return "a number";
+  if (any_of(system_viewers, folded) && !is_viewer(value.value_or("")))
+    return "left out, or ascii:file:format, such as ':profile.txt' or ':profile.xml:ascii_xml'";
+  return "";
+}
+
+Guess meant(const std::string& name, const Schema& schema, const Known& known) {
+  Nearest guess;
+  std::size_t open = static_cast<std::size_t>(-1);  // how near a name may be that is not known yet
   const std::string folded = spelling::fold(name);
   const auto consider = [&](const std::string& candidate) {
     guess.consider(candidate, spelling::distances(spelling::fold(candidate), folded).back(), name.size());
@@ -106,12 +158,19 @@ std::string meant(const std::string& name, const Schema& schema, const Known& kn
     if (parts.placeholder.empty())
       consider(option.name);
     else if (fillings == known.end())
-      consider_any_filling(guess, parts, name);
+      open = std::min(open, least_distance(parts, name));
     else
       for (const std::string& filled : fillings->second) consider(parts.prefix + filled + parts.suffix);
   }
-  for (const char* system_name : system_names) consider(system_name);
-  return guess.name.empty() ? containing(name, schema) : "-" + guess.name;
+  for (const char* system : system_texts) consider(system);
+  for (const char* system : system_flags) consider(system);
+  for (const char* system : system_numbers) consider(system);
+  for (const char* system : system_viewers) consider(system);
+  const bool may_be_nearer = open <= spelling::tolerance(name.size()) && open < guess.distance;
+  if (!guess.name.empty()) return {"-" + guess.name, may_be_nearer};
+  Guess part = containing(name, schema, known);
+  part.open = part.open || may_be_nearer;
+  return part;
 }
 
 }  // namespace slipscale::names

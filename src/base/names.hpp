@@ -24,13 +24,21 @@ std::optional<std::string> filling(const Pattern& pattern, const std::string& na
 /// `run_<entry>`: a place for information about a run, which nobody reads and nobody checks.
 bool ignored(const Pattern& pattern);
 
-/// PETSc's own options by first word: solvers and meshes. They count as unknown until PETSc has read them.
-bool petsc_object(const std::string& name);
+/// PETSc's own options by first word: solvers and meshes, and those with one of the prefixes `solvers`. They
+/// count as unknown until PETSc has read them.
+bool petsc_object(const std::string& name, const std::vector<std::string>& solvers);
 
 /// PETSc's own options that it reads when it starts or ends (`log_view`), by full name.
 bool petsc_system(const std::string& name);
 
-/// The name the user may have meant, with dash and placeholder filled in; empty when nothing is near.
-std::string meant(const std::string& name, const Schema& schema, const Known& known);
+/// What such an option must be, when PETSc would not understand the value; empty when it does.
+std::string petsc_wants(const std::string& name, const std::optional<std::string>& value);
+
+/// What the user may have meant.
+struct Guess {
+  std::string name;   ///< an option that exists, with dash; empty when nothing is near
+  bool open = false;  ///< once a mesh tells more names, one of them may be nearer
+};
+Guess meant(const std::string& name, const Schema& schema, const Known& known);
 
 }  // namespace slipscale::names

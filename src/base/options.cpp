@@ -9,36 +9,6 @@
 namespace slipscale {
 namespace {
 
-struct Entry {
-  bool given = false;
-  const char* value = nullptr;  ///< null when nothing stands behind the option
-};
-
-Entry find(const std::string& name) {
-  PetscBool found = PETSC_FALSE;
-  Entry entry;
-  petsc(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &entry.value, &found));
-  entry.given = found;
-  return entry;
-}
-
-/// PETSc answers a question for `-material_fibre_2_young` with the value of `-material_fibre_young` when only
-/// that one is given: it drops numbers between underscores. Both names then share one stored value.
-bool borrowed(const std::string& name, const Entry& entry) {
-  for (std::size_t begin = name.find('_'); begin != std::string::npos; begin = name.find('_', begin + 1)) {
-    const std::size_t end = name.find_first_not_of("0123456789", begin + 1);
-    if (end == std::string::npos || end == begin + 1 || name[end] != '_') continue;
-    const Entry shorter = find(name.substr(0, begin) + name.substr(end));
-    if (shorter.given && shorter.value == entry.value) return true;
-  }
-  return false;
-}
-
-Entry lookup(const std::string& name) {
-  const Entry entry = find(name);
-  return entry.given && borrowed(name, entry) ? Entry{} : entry;
-}
-
 [[noreturn]] void missing(const std::string& name, const Option& option) {
   const std::string what = option.help.substr(0, option.help.find_last_not_of('.') + 1);
   throw UserError("-" + name + " is needed here but not given (" + what + "); it must be " +
@@ -63,17 +33,19 @@ std::vector<std::string> names_in(const Schema& schema, const std::string& begin
   return found;
 }
 
+const Written* Options::find(const std::string& name) const {
+  const auto found = given_.find(name);
+  return found == given_.end() || aside_.contains(name) ? nullptr : &found->second;
+}
+
 std::optional<std::string> Options::value(const std::string& name) const {
   const Match found = match(name);
   if (!found.option) throw std::logic_error("option '" + name + "' is read but no schema declares it");
   const Option& option = *found.option;
-  const Entry entry = lookup(name);
-  if (entry.given && !aside_.contains(name)) {
-    if (!entry.value && option.kind != Kind::flag)
-      throw UserError("-" + name + " has no value; write after it " + value::wanted(option));
-    const std::string text = entry.value ? entry.value : "true";
-    value::check(option, name, text);
-    return effective_[name] = text;
+  touched_.insert(name);
+  if (const Written* entry = find(name)) {
+    check(*entry);
+    return effective_[name] = entry->value.value_or("true");
   }
   if (option.fallback == required) missing(name, option);
   if (option.fallback == absent) return std::nullopt;
@@ -87,7 +59,10 @@ std::string Options::needed(const std::string& name) const {
   return *text;
 }
 
-bool Options::given(const std::string& name) const { return !aside_.contains(name) && lookup(name).given; }
+bool Options::given(const std::string& name) const {
+  touched_.insert(name);
+  return find(name) != nullptr;
+}
 
 double Options::real(const std::string& name) const {
   const auto x = find_real(name);

@@ -3,20 +3,26 @@
 #include <stdexcept>
 
 #include "names.hpp"
+#include "places_of_petsc.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/options.hpp"
+#include "slipscale/base/plain_yaml.hpp"
 #include "spelling.hpp"
 #include "value.hpp"
 
 namespace slipscale {
 namespace {
 
-/// Options nobody has asked PETSc for yet.
-std::vector<std::string> unread() {
+/// Options nobody has asked PETSc for yet, with their values.
+std::vector<Written> unread() {
   PetscInt count = 0;
   char **options = nullptr, **values = nullptr;
   petsc(PetscOptionsLeftGet(nullptr, &count, &options, &values));
-  const std::vector<std::string> result(options, options + count);
+  std::vector<Written> result;
+  for (PetscInt k = 0; k < count; ++k) {
+    result.push_back({options[k]});
+    if (values[k]) result.back().value = values[k];
+  }
   petsc(PetscOptionsLeftRestore(nullptr, &count, &options, &values));
   return result;
 }
@@ -39,26 +45,32 @@ std::string respelled(const std::string& name, const Schema& schema, const names
     const names::Pattern parts = names::pattern(option.name);
     const auto found = names::filling(parts, spelling::fold(name));
     if (!found) continue;
-    const std::string filled =
-        name.substr(parts.placeholder.empty() ? name.size() : parts.prefix.size(), found->size());
     const auto fillings = known.find(parts.placeholder);
-    if (fillings == known.end()) return parts.prefix + filled + parts.suffix;
+    if (fillings == known.end()) {
+      if (parts.placeholder.empty()) return parts.prefix;
+      continue;  // until the mesh is read
+    }
     for (const std::string& candidate : fillings->second)
       if (spelling::fold(candidate) == *found) return parts.prefix + candidate + parts.suffix;
   }
   return "";
 }
 
-/// PETSc keeps the spelling it meets first and folds later ones into it, so that `-Time_end` behind
-/// `-time_end` leaves no trace in its database.
-std::vector<std::string> with_other_spellings(std::vector<std::string> names, const Origins& origins) {
-  std::map<std::string, std::string> stored;
-  for (const std::string& name : names) stored.emplace(spelling::fold(name), name);
-  for (const auto& [written, origin] : origins) {
-    const auto found = stored.find(spelling::fold(written));
-    if (found != stored.end() && found->second != written) names.push_back(written);
-  }
-  return names;
+/// What a reader of YAML 1.1 makes of a word that the option takes as it stands; empty when it is the same.
+std::string other_meaning(const Option& option, const Written& entry) {
+  const std::string& word = entry.doubt;
+  if (word.empty()) return "";
+  const PlainYaml meaning = plain_yaml(word);
+  const bool free_text = option.kind == Kind::text && option.range.words.empty();
+  // 1.50 is printed as 1.5.
+  const bool changes = meaning == PlainYaml::number && !value::printed_alike(word);
+  const bool harmless = meaning == PlainYaml::other    ? false
+                        : meaning == PlainYaml::number ? !(free_text && changes)
+                        : meaning == PlainYaml::flag   ? option.kind != Kind::text || !free_text
+                                                       : false;
+  return harmless ? ""
+                  : "-" + entry.name + " is " + word + ", which YAML takes for " + plain_yaml_words(word) +
+                        "; " + (free_text ? "put it in quotes" : "write " + value::wanted(option));
 }
 
 void check_fallback(const Option& option) {
@@ -72,17 +84,52 @@ void check_fallback(const Option& option) {
 
 }  // namespace
 
-Options::Options(std::string program, Schema schema, Origins origins)
-    : program_(std::move(program)), schema_(std::move(schema)), origins_(std::move(origins)) {
+Options::Options(std::string program, Schema schema, const std::vector<Written>& written,
+                 std::vector<std::string> solvers)
+    : program_(std::move(program)), schema_(std::move(schema)), solvers_(std::move(solvers)) {
   for (const Option& option : schema_) check_fallback(option);
-  typed_ = with_other_spellings(unread(), origins_);
-  for (const std::string& name : typed_) {
-    refuse_if_unknown(name);
-    const Match found = match(name);
-    // Asking for the value checks it, and its place in `run.yaml` has to be earned by a reader.
-    if (found.option && !names::ignored(names::pattern(found.option->name))) (void)value(name);
+  const std::vector<Written> before = unread();
+  const PlacesOfPetsc places(before.empty());
+  for (Written entry : before) {
+    entry.origin.place = places.of(entry.name);
+    take(entry);
   }
-  effective_.clear();
+  for (const Written& entry : written) take(entry);
+  for (const std::string& name : typed_) {
+    refuse_if_unknown(name, false);
+    const Match found = match(name);
+    if (found.option && !names::ignored(names::pattern(found.option->name))) check(given_.at(name));
+  }
+}
+
+void Options::take(const Written& entry) {
+  if (is_petsc(entry.name)) return;
+  const auto [place, is_new] = given_.insert_or_assign(entry.name, entry);
+  if (is_new) typed_.push_back(entry.name);
+}
+
+bool Options::is_petsc(const std::string& name) const {
+  return !match(name).option && (names::petsc_object(name, solvers_) || names::petsc_system(name));
+}
+
+void Options::check(const Written& entry) const {
+  const Option& option = *match(entry.name).option;
+  try {
+    const bool bare_flag = option.kind == Kind::flag && !entry.in_yaml;
+    if (!entry.value && !bare_flag)
+      throw UserError("-" + entry.name + " has no value; write after it " + value::wanted(option));
+    const std::string odd = other_meaning(option, entry);
+    if (!odd.empty()) throw UserError(odd);
+    value::check(option, entry.name, entry.value.value_or("true"));
+  } catch (const UserError& error) {
+    refuse(entry.name, error.what());
+  }
+}
+
+void Options::refuse(const std::string& name, const std::string& sentence) const {
+  const Origin from = origin(name);
+  throw UserError(sentence +
+                  (from.order == 0 && !from.place.empty() ? " (it stands in " + from.place + ")" : ""));
 }
 
 Options::Match Options::match(const std::string& name) const {
@@ -103,24 +150,26 @@ Options::Match Options::match(const std::string& name) const {
   return best;
 }
 
-void Options::refuse_if_unknown(const std::string& name) const {
+/// `at_last`: no more names will be known. Before that, an option that is meant may depend on them.
+void Options::refuse_if_unknown(const std::string& name, bool at_last) const {
   const Match found = match(name);
   const std::string placeholder = found.option ? names::pattern(found.option->name).placeholder : "";
   if (found.option && known_as(names_, placeholder, found.filled)) return;
-  if (!found.option && (names::petsc_object(name) || names::petsc_system(name))) return;
+  if (is_petsc(name)) return;
 
   const std::string spelled = respelled(name, schema_, names_);
   if (!spelled.empty() && spelled != name)
-    throw UserError("-" + name + " differs in capitals from the option it means; write -" + spelled);
-  const std::string near = names::meant(name, schema_, names_);
-  if (found.option) {
-    throw UserError(
-        "-" + name + " names the " + placeholder + " '" + found.filled + "', which the mesh does not have" +
-        (near.empty() || near == "-" + name ? "" : "; did you mean " + near + "?") + " (the mesh has " +
-        (names_.at(placeholder).empty() ? "none" : joined(names_.at(placeholder))) + ")");
-  }
-  throw UserError("-" + name + " is not an option of " + program_ +
-                  (near.empty() ? "; see " + program_ + " -help" : "; did you mean " + near + "?"));
+    refuse(name, "-" + name + " differs in capitals from the option it means; write -" + spelled);
+  const names::Guess near = names::meant(name, schema_, names_);
+  if (near.open && !at_last) return;
+  const std::string hint =
+      near.name.empty() || near.name == "-" + name ? "" : "; did you mean " + near.name + "?";
+  if (found.option)
+    refuse(name, "-" + name + " names the " + placeholder + " '" + found.filled +
+                     "', which the mesh does not have" + hint + " (the mesh has " +
+                     (names_.at(placeholder).empty() ? "none" : joined(names_.at(placeholder))) + ")");
+  refuse(name, "-" + name + " is not an option of " + program_ +
+                   (hint.empty() ? "; see " + program_ + " -help" : hint));
 }
 
 void Options::know_names(const std::string& placeholder, const std::vector<std::string>& names) {
@@ -133,15 +182,16 @@ void Options::know_names(const std::string& placeholder, const std::vector<std::
           "' of the mesh differ in capitals only, which options cannot tell apart; rename one of them");
   }
   names_[placeholder] = names;
-  for (const std::string& name : typed_) refuse_if_unknown(name);
+  for (const std::string& name : typed_) refuse_if_unknown(name, false);
 }
 
 void Options::refuse_unknown() const {
-  for (const std::string& name : unread()) {
-    refuse_if_unknown(name);
-    if (match(name).option || names::petsc_system(name)) continue;
-    const std::string near = names::meant(name, schema_, names_);
-    throw UserError("-" + name + " was given but neither " + program_ + " nor PETSc has read it" +
+  for (const std::string& name : typed_) refuse_if_unknown(name, true);
+  for (const Written& entry : unread()) {
+    refuse_if_unknown(entry.name, true);
+    if (match(entry.name).option || names::petsc_system(entry.name)) continue;
+    const std::string near = names::meant(entry.name, schema_, names_).name;
+    throw UserError("-" + entry.name + " was given but neither " + program_ + " nor PETSc has read it" +
                     (near.empty() ? "; remove it, or correct its name" : "; did you mean " + near + "?"));
   }
 }

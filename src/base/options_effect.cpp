@@ -1,5 +1,6 @@
 // The part of Options that sees to it that what the user wrote has an effect.
 #include <algorithm>
+#include <stdexcept>
 
 #include "names.hpp"
 #include "slipscale/base/error.hpp"
@@ -8,8 +9,8 @@
 namespace slipscale {
 
 Origin Options::origin(const std::string& name) const {
-  const auto found = origins_.find(name);
-  return found == origins_.end() ? Origin{} : found->second;
+  const auto found = given_.find(name);
+  return found == given_.end() ? Origin{} : found->second.origin;
 }
 
 bool Options::overruled(const std::string& name, const std::vector<std::string>& by,
@@ -34,20 +35,37 @@ void Options::refuse_idle(const std::vector<std::string>& names, const Idle& idl
 }
 
 void Options::refuse_both(const std::string& one, const std::string& other) const {
-  if (!given(one) || !given(other)) return;
+  const bool both = given(one) & given(other);
+  if (!both) return;
   if (overruled(one, {other}, "gives way to -" + other) || overruled(other, {one}, "gives way to -" + one))
     return;
   throw UserError("-" + one + " contradicts -" + other + "; give one of them");
 }
 
+/// Every declared option must be known to some reader, for one name at least that its placeholder may have.
+void Options::refuse_forgotten() const {
+  std::set<const Option*> known;
+  for (const std::string& name : touched_) known.insert(match(name).option);
+  for (const Option& option : schema_) {
+    const names::Pattern parts = names::pattern(option.name);
+    const auto fillings = names_.find(parts.placeholder);
+    if (names::ignored(parts) || (fillings != names_.end() && fillings->second.empty())) continue;
+    if (!known.contains(&option))
+      throw std::logic_error("-" + option.name + " is declared, but no reader of " + program_ +
+                             " asks for it or says why it is idle");
+  }
+}
+
 void Options::refuse_unread() const {
+  for (const std::string& name : typed_) refuse_if_unknown(name, true);
   for (const std::string& name : typed_) {
     const Option* option = match(name).option;
     if (!option || names::ignored(names::pattern(option->name))) continue;
     if (given(name) && !effective_.contains(name))
-      throw UserError("-" + name + " has no effect in this scene; remove it (" + program_ +
-                      " -help says what it belongs to)");
+      refuse(name, "-" + name + " has no effect in this scene; remove it (" + program_ +
+                       " -help says what it belongs to)");
   }
+  refuse_forgotten();
 }
 
 }  // namespace slipscale

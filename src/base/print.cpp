@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
+#include <string_view>
+
+#include "slipscale/base/parallel.hpp"
 
 namespace slipscale {
 namespace {
@@ -31,11 +33,33 @@ bool takes_prefix(const std::string& unit) {
 }  // namespace
 
 void print(const std::string& text) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD == MPI_COMM_NULL ? MPI_COMM_WORLD : PETSC_COMM_WORLD, &rank);
+  const int rank = rank_of(PETSC_COMM_WORLD == MPI_COMM_NULL ? MPI_COMM_WORLD : PETSC_COMM_WORLD);
   if (rank != 0) return;
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
+}
+
+std::string one_line(const std::string& text) {
+  // Next line, line separator and paragraph separator in UTF-8.
+  static constexpr std::array<std::string_view, 3> breaks{"\xC2\x85", "\xE2\x80\xA8", "\xE2\x80\xA9"};
+  std::string line;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto c = static_cast<unsigned char>(text[k]);
+    const auto found = std::find_if(breaks.begin(), breaks.end(), [&](std::string_view each) {
+      return text.compare(k, each.size(), each) == 0;
+    });
+    if (found != breaks.end()) {
+      line += ' ';
+      k += found->size() - 1;
+    } else if (c == '\n' || c == '\r' || c == '\t') {
+      line += ' ';
+    } else if (c < 0x20 || c == 0x7F) {
+      line += format("\\x{:02x}", c);
+    } else {
+      line += text[k];
+    }
+  }
+  return line;
 }
 
 std::string table(const std::vector<std::vector<std::string>>& rows) {

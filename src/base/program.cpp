@@ -1,28 +1,31 @@
 #include "slipscale/base/program.hpp"
 
+#include <hdf5.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "command_line.hpp"
+#include "names.hpp"
+#include "places_of_petsc.hpp"
+#include "process.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
+#include "slipscale/base/yaml_text.hpp"
 #include "slipscale/version.hpp"
 
 namespace slipscale {
 namespace {
 
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-void complain(const std::string& program, std::string sentence) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+void complain(const std::string& program, const std::string& text) {
+  const std::string sentence = one_line(text);
   std::fflush(stdout);
   std::fprintf(stderr, "%s: %s\n", program.c_str(), sentence.c_str());
   std::fflush(stderr);
@@ -30,7 +33,7 @@ void complain(const std::string& program, std::string sentence) {
 
 /// Other ranks may be waiting in a collective call that this one will never join, so all are ended.
 [[noreturn]] void abort_all(const std::string& program, const std::string& what) {
-  complain(program, "failed on rank " + std::to_string(rank_of_world()) + ": " + what);
+  complain(program, "failed on rank " + std::to_string(rank_of(MPI_COMM_WORLD)) + ": " + what);
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();
 }
@@ -41,10 +44,10 @@ int guarded(const std::string& program, const std::function<void()>& work) {
     work();
     return 0;
   } catch (const UserError& error) {
-    if (rank_of_world() == 0) complain(program, error.what());
+    if (is_root(MPI_COMM_WORLD)) complain(program, error.what());
     return 2;
   } catch (const RunError& error) {
-    if (rank_of_world() == 0) complain(program, error.what());
+    if (is_root(MPI_COMM_WORLD)) complain(program, error.what());
     return 1;
   } catch (const std::bad_alloc&) {
     abort_all(program, "out of memory; use more ranks or a coarser mesh");
@@ -56,10 +59,46 @@ int guarded(const std::string& program, const std::function<void()>& work) {
 }
 
 /// The scenes one after the other, then the command line over them.
-void fill_database(const CommandLine& line, const std::vector<std::string>& scenes,
-                   const std::vector<char*>& arguments) {
-  for (std::size_t k = 0; k < scenes.size(); ++k) insert_scene(line.scene_files[k], scenes[k]);
-  insert_arguments(arguments);
+std::vector<Written> read_all(const CommandLine& line) {
+  std::vector<Written> options;
+  int order = 0;
+  for (const std::string& file : line.scene_files) {
+    const auto scene = read_scene_text(file, read_on_all("-options_file_yaml", file), ++order);
+    options.insert(options.end(), scene.begin(), scene.end());
+  }
+  ++order;
+  for (Written option : line.options) {
+    option.origin = {order, "the command line"};
+    options.push_back(option);
+  }
+  return options;
+}
+
+bool is_petsc(const Program& program, const std::string& name) {
+  return names::petsc_system(name) || names::petsc_object(name, program.solvers);
+}
+
+/// What PETSc is to see of the command line: its own options, and its own files.
+std::vector<std::string> petsc_arguments(const Program& program, const CommandLine& line) {
+  std::vector<std::string> arguments{line.program};
+  for (const std::string& file : line.option_files)
+    arguments.insert(arguments.end(), {"-options_file", file});
+  for (const Written& option : line.options) {
+    if (!is_petsc(program, option.name)) continue;
+    arguments.push_back("-" + option.name);
+    if (option.value) arguments.push_back(*option.value);
+  }
+  return arguments;
+}
+
+/// PETSc's own options of the scenes, and over them those of the command line.
+void fill_database(const Program& program, const std::vector<Written>& options,
+                   std::vector<char*>& arguments) {
+  for (const Written& option : options)
+    if (option.in_yaml && is_petsc(program, option.name))
+      petsc(PetscOptionsSetValue(nullptr, ("-" + option.name).c_str(),
+                                 option.value ? option.value->c_str() : nullptr));
+  petsc(PetscOptionsInsertArgs(nullptr, static_cast<int>(arguments.size()) - 2, arguments.data() + 1));
 }
 
 /// PETSc lists options nobody read, at length; we have told the user already, and better.
@@ -69,18 +108,33 @@ void silence_leftovers() {
   if (!given) petsc(PetscOptionsSetValue(nullptr, "-options_left", "no"));
 }
 
-int run_in_petsc(const Program& program, CommandLine line, const std::vector<std::string>& scenes) {
-  std::vector<char*> arguments;
-  for (std::string& argument : line.arguments) arguments.push_back(argument.data());
-  arguments.push_back(nullptr);
+/// Where PETSc does not start it is for its options: everything else is as at every start.
+void start_petsc(std::vector<char*>& arguments) {
   int argc = static_cast<int>(arguments.size()) - 1;
   char** argv = arguments.data();
+  const KeptSignals kept;
   // Before PETSc starts, so that its debugging options (-on_error_abort) come on top of ours.
   keep_petsc_messages();
-  petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
+  if (PetscInitialize(&argc, &argv, nullptr, nullptr))
+    throw UserError(
+        "PETSc does not start with the options it finds, on the command line, in PETSC_OPTIONS or in "
+        ".petscrc: " +
+        take_petsc_message() + "; correct or remove them");
+}
+
+int run_in_petsc(const Program& program, const CommandLine& line, const std::vector<Written>& own) {
+  std::vector<std::string> words = petsc_arguments(program, line);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  start_petsc(arguments);
   const int code = guarded(program.name, [&] {
-    fill_database(line, scenes, arguments);
-    Options options(program.name, program.schema, written_options());
+    std::vector<Written> written;
+    for (const std::string& file : line.option_files)
+      for (const Written& option : options_of_petsc_file(file)) written.push_back(option);
+    written.insert(written.end(), own.begin(), own.end());
+    fill_database(program, written, arguments);
+    Options options(program.name, program.schema, written, program.solvers);
     program.run(options);
   });
   silence_leftovers();
@@ -88,31 +142,61 @@ int run_in_petsc(const Program& program, CommandLine line, const std::vector<std
   return code;
 }
 
-std::string version_line(const std::string& program) {
-  return format("{} {}, PETSc {}.{}.{}\n", program, version, PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
-                PETSC_VERSION_SUBMINOR);
+/// "Open MPI v4.1.4, package: …" up to the comma.
+std::string mpi_version() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string whole(text.data(), static_cast<std::size_t>(length));
+  return whole.substr(0, whole.find_first_of(",\n"));
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return format("HDF5 {}.{}.{}", major, minor, release);
+}
+
+std::string petsc_version() {
+  PetscInt major = 0, minor = 0, patch = 0, is_release = 0;
+  petsc(PetscGetVersionNumber(&major, &minor, &patch, &is_release));
+  return format("PETSc {}.{}.{}", major, minor, patch);
+}
+
+std::string version_line(const Program& program) {
+  std::string line = program.name + " " + version;
+  if (!program.commit.empty()) line += " (commit " + program.commit + ")";
+  std::vector<std::string> libraries{petsc_version(), mpi_version(), hdf5_version()};
+  libraries.insert(libraries.end(), program.libraries.begin(), program.libraries.end());
+  for (const std::string& library : libraries) line += ", " + library;
+  return line + "\n";
 }
 
 int answer(int argc, char** argv, const Program& program) {
-  const CommandLine line = read_command_line(argc, argv, program.name, program.schema);
+  const CommandLine line = read_command_line(argc, argv);
   if (line.help) {
     print(manual(program.name, program.purpose, program.schema));
     return 0;
   }
   if (line.version) {
-    print(version_line(program.name));
+    print(version_line(program));
     return 0;
   }
-  std::vector<std::string> scenes;
-  for (const std::string& file : line.scene_files) scenes.push_back(read_on_all("-options_file_yaml", file));
-  for (std::size_t k = 1; k + 1 < line.arguments.size(); ++k)
-    if (line.arguments[k] == "-options_file") (void)read_on_all("-options_file", line.arguments[k + 1]);
-  return run_in_petsc(program, line, scenes);
+  check_petsc_values(line);
+  for (const std::string& file : line.option_files) (void)read_on_all("-options_file", file);
+  return run_in_petsc(program, line, read_all(line));
 }
 
 }  // namespace
 
+void end_reading(const Options& options) {
+  options.refuse_unread();
+  for (const std::string& note : options.notes()) print(note + "\n");
+}
+
 int run_program(int argc, char** argv, const Program& program) {
+  set_program(program.name, program.commit);
+  start_alone();
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   int code = 0;

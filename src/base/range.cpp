@@ -6,7 +6,6 @@ namespace {
 bool accept_positive(double x) { return x > 0; }
 bool accept_non_negative(double x) { return x >= 0; }
 bool accept_at_least_one(double x) { return x >= 1; }
-bool accept_poisson(double x) { return x > -1 && x < 0.5; }
 bool accept_unit(double x) { return x > 0 && x <= 1; }
 
 std::string listed(const std::vector<std::string>& words, const std::string& last) {
@@ -25,7 +24,6 @@ constinit const Range any{"", nullptr};
 constinit const Range positive{"> 0", accept_positive};
 constinit const Range non_negative{">= 0", accept_non_negative};
 constinit const Range at_least_one{">= 1", accept_at_least_one};
-constinit const Range poisson{"> -1 and < 0.5", accept_poisson};
 constinit const Range unit{"> 0 and <= 1", accept_unit};
 
 Range one_of(std::vector<std::string> words) {

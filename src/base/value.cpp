@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "slipscale/base/error.hpp"
 #include "spelling.hpp"
@@ -59,8 +60,15 @@ std::string kind_text(const Option& option) {
 void check_number(const Option& option, const std::string& name, const std::string& text) {
   std::optional<double> x;
   if (option.kind == Kind::real) x = number(text);
-  if (option.kind == Kind::integer)
+  if (option.kind == Kind::integer) {
     if (const auto n = integer(text)) x = static_cast<double>(*n);
+    const std::string digits = trimmed(text);
+    const bool is_whole = digits.size() > 1 && digits.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (!x && is_whole && digits[0] != '-' && number(digits))
+      refuse(option, name, text, "at most " + std::to_string(std::numeric_limits<PetscInt>::max()));
+    if (!x && is_whole && digits[0] == '-' && number(digits) && option.range.accepts)
+      refuse(option, name, text, option.range.text);
+  }
   if (!x) {
     const bool comma = option.kind == Kind::real && text.find(',') != std::string::npos;
     refuse(option, name, "'" + text + "'", kind_text(option),
@@ -98,6 +106,19 @@ std::optional<double> number(const std::string& text) {
 }
 
 std::optional<PetscInt> integer(const std::string& text) { return parsed<PetscInt>(text); }
+
+bool printed_alike(const std::string& text) {
+  const std::string digits = text.substr(text.starts_with('-') ? 1 : 0);
+  const auto point = digits.find('.');
+  const std::string whole = digits.substr(0, point);
+  if (whole.empty() || whole.size() > 15 || (whole.size() > 1 && whole[0] == '0') ||
+      digits.find_first_not_of("0123456789.") != std::string::npos)
+    return false;
+  if (point == std::string::npos) return true;
+  const std::string part = digits.substr(point + 1);
+  return part == "0" || (!part.empty() && part.back() != '0' && whole.size() + part.size() <= 15 &&
+                         (whole != "0" || part.find_first_not_of('0') < 4));
+}
 
 std::optional<bool> truth(const std::string& text) {
   const std::string word = spelling::fold(trimmed(text));

@@ -14,6 +14,9 @@ std::optional<PetscInt> integer(const std::string& text);
 std::optional<bool> truth(const std::string& text);       ///< true, false, yes, no, on, off, 1, 0
 std::vector<std::string> items(const std::string& text);  ///< of a comma-separated list; none when empty
 
+/// Whether a decimal number is printed again as it was written: 1.5 and 12 are, 1.50, +12 and 1.0e3 are not.
+bool printed_alike(const std::string& text);
+
 /// What the option wants, as it reads after "it must be": "a number > 0 (Pa)".
 std::string wanted(const Option& option);
 

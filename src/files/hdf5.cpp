@@ -1,8 +1,13 @@
 #include "slipscale/files/hdf5.hpp"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
 
 namespace slipscale {
 namespace {
@@ -31,6 +36,36 @@ void write_value(hid_t object, const std::string& name, hid_t type, hid_t space,
 }  // namespace
 
 void keep_hdf5_messages() { (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Hdf5File create_file(const std::string& path) {
+  const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
+  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
+  Hdf5File file(hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
+  write_provenance(file);
+  return file;
+}
+
+void write_provenance(hid_t file) {
+  const Provenance from = provenance();
+  write_attribute(file, "program", from.program);
+  write_attribute(file, "version", from.version);
+  if (!from.commit.empty()) write_attribute(file, "commit", from.commit);
+  write_attribute(file, "date", from.date);
+  write_attribute(file, "ranks", static_cast<std::int64_t>(from.ranks));
+}
+
+std::string checksum_text(std::uint64_t checksum) {
+  return format("fnv1a:{:016x}", static_cast<unsigned long long>(checksum));
+}
+
+void cut_off(hid_t file) {
+  void* handle = nullptr;
+  const int nowhere = memfd_create("slipscale", MFD_CLOEXEC);
+  if (nowhere < 0) return;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle)
+    (void)dup2(nowhere, *static_cast<const int*>(handle));
+  (void)close(nowhere);
+}
 
 std::string hdf5_message() {
   std::string text;

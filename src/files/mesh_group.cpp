@@ -29,11 +29,12 @@ hsize_t write_cells(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
 }  // namespace
 
 MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
+  if (image.checksum() != 0)
+    file.describe(
+        "/", [&](hid_t root) { write_attribute(root, "mesh_checksum", checksum_text(image.checksum())); });
   const std::array box{image.block().lower, image.block().upper};
   file.write({"/mesh/block", "m", "lower left and upper right corner of the whole block; x and y"},
-             {{2, 2}, 0, rank == 0 ? 2u : 0u}, H5T_NATIVE_DOUBLE, box.front().data());
+             slice_of_root(comm, {2, 2}), H5T_NATIVE_DOUBLE, box.front().data());
   file.write({"/mesh/coordinates", "m", "positions of the points; x and y"}, slice_of(image.points(), {2}),
              H5T_NATIVE_DOUBLE, image.coordinates().data());
   const hsize_t length = write_cells(comm, file, image);

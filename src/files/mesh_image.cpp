@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 namespace {
 
@@ -61,7 +63,7 @@ std::vector<char> cells_in(const Cells& cells, const Box& box) {
 }
 
 MeshImage::MeshImage(MPI_Comm comm, const Mesh& mesh, const std::optional<Box>& box)
-    : block_{mesh.lower, mesh.upper}, region_names_(mesh.region_names()) {
+    : checksum_(mesh.checksum), block_{mesh.lower, mesh.upper}, region_names_(mesh.region_names()) {
   const Rows rows = box ? rows_in(comm, mesh, *box)
                         : Rows{mesh.nodes.number, mesh.cells.number, mesh.nodes.total, mesh.cells.total};
   std::vector<Extra> extras;
@@ -116,8 +118,7 @@ std::vector<MeshImage::Extra> MeshImage::extra_points(MPI_Comm comm, const Mesh&
 /// The extra points of all ranks on all ranks: as many as a seam has nodes, so few.
 std::vector<MeshImage::Extra> MeshImage::gather(MPI_Comm comm, const std::vector<Extra>& mine) {
   static_assert(std::is_trivially_copyable_v<Extra>);
-  int ranks = 1, bytes = static_cast<int>(mine.size() * sizeof(Extra));
-  MPI_Comm_size(comm, &ranks);
+  const int ranks = ranks_of(comm), bytes = static_cast<int>(mine.size() * sizeof(Extra));
   std::vector<int> counts(ranks), starts(ranks + 1, 0);
   MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
   for (int r = 0; r < ranks; ++r) starts[r + 1] = starts[r] + counts[r];
@@ -172,9 +173,7 @@ void MeshImage::set_cells(MPI_Comm comm, const Mesh& mesh, const Rows& rows,
 
 MeshImage::MeshImage(MPI_Comm comm, const PlaneGrid& grid, std::size_t begin, std::size_t end)
     : block_(bounding_box(grid)), region_names_(grid.regions) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
+  const int rank = rank_of(comm), ranks = ranks_of(comm);
   std::vector<PetscInt> held_points, held_cells;
   for (std::size_t point = rank; point < grid.points.size(); point += ranks) {
     held_points.push_back(static_cast<PetscInt>(point));

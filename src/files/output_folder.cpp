@@ -1,73 +1,93 @@
 #include "slipscale/files/output_folder.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
+#include "slipscale/files/disk_space.hpp"
+#include "slipscale/files/folder_lock.hpp"
 
 namespace slipscale {
 namespace {
 
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
+namespace fs = std::filesystem;
+
+std::string complaint(const std::string& folder, const std::string& fault) {
+  return "-output_folder '" + folder + "' " + fault + "; give a folder that you may write to";
 }
 
-/// What is wrong with the folder, once made ready; empty when nothing is.
-std::string prepare(const std::string& folder, const std::vector<std::string>& replaced) {
-  const auto complain = [&](const std::string& fault) {
-    return "-output_folder '" + folder + "' " + fault + "; give a folder that you may write to";
-  };
+/// What is wrong with the folder, once made ready and locked; empty when nothing is.
+std::string prepare(const std::string& folder, const std::vector<std::string>& replaced,
+                    std::unique_ptr<FolderLock>& lock) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return complain("cannot be created (" + error.message() + ")");
-  if (!std::filesystem::is_directory(folder)) return complain("is not a folder");
-  for (const std::string& file : replaced) {
-    std::filesystem::remove(std::filesystem::path(folder) / file, error);
-    if (error) return complain("holds a " + file + " that cannot be removed (" + error.message() + ")");
-  }
-  const std::string probe = folder + "/.slipscale-probe";
+  fs::create_directories(folder, error);
+  if (error) return complaint(folder, "cannot be created (" + error.message() + ")");
   try {
-    replace_text_file(probe, "");
+    lock = std::make_unique<FolderLock>(folder);
+  } catch (const UserError& held) {
+    return held.what();
   } catch (const LibraryError& failure) {
-    return complain(std::string("cannot be written to (") + failure.what() + ")");
+    return complaint(folder, std::string("cannot be written to (") + failure.what() + ")");
   }
-  std::filesystem::remove(probe, error);
+  for (const std::string& file : replaced) {
+    fs::remove(fs::path(folder) / file, error);
+    if (error)
+      return complaint(folder, "holds a " + file + " that cannot be removed (" + error.message() + ")");
+  }
   return "";
 }
 
 }  // namespace
 
-void replace_text_file(const std::string& path, const std::string& text) {
+std::string try_replace_text_file(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".partial";
-  const auto fail = [&] {
-    const std::string reason = std::strerror(errno);
-    (void)std::remove(temporary.c_str());
-    throw LibraryError("cannot write " + path + ": " + reason);
-  };
-  std::FILE* file = std::fopen(temporary.c_str(), "w");
-  if (!file) fail();
-  bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  good = std::fclose(file) == 0 && good;
-  if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) fail();
+  std::FILE* const file = std::fopen(temporary.c_str(), "w");
+  bool good = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (file) good = std::fclose(file) == 0 && good;
+  if (good && std::rename(temporary.c_str(), path.c_str()) == 0) return "";
+  const std::string reason = std::strerror(errno);
+  (void)std::remove(temporary.c_str());
+  return write_fault(path, reason);
+}
+
+void replace_text_file(const std::string& path, const std::string& text) {
+  if (const std::string fault = try_replace_text_file(path, text); !fault.empty()) throw LibraryError(fault);
+}
+
+std::string why_unwritable(const std::string& folder) {
+  std::error_code none;
+  fs::path place = fs::absolute(folder, none);
+  while (!fs::exists(place, none) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place, none))
+    return complaint(folder, "cannot be created ('" + place.string() + "' is no folder)");
+  if (access(place.c_str(), W_OK | X_OK) != 0)
+    return complaint(folder, "cannot be written to ('" + place.string() + "': " + std::strerror(errno) + ")");
+  return "";
+}
+
+void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
+  throw_together(comm, is_root(comm) ? why_unwritable(folder) : "");
 }
 
 OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced)
     : comm_(comm), path_(folder) {
-  throw_together(comm, rank_of(comm) == 0 ? prepare(folder, replaced) : "");
+  // Past a limit on the size of files a write then fails with words, and the process is not ended by a
+  // signal.
+  (void)std::signal(SIGXFSZ, SIG_IGN);
+  throw_together(comm, is_root(comm) ? prepare(folder, replaced, lock_) : "");
 }
 
+OutputFolder::~OutputFolder() = default;
+OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;
+
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {
-  std::string fault;
-  try {
-    if (rank_of(comm_) == 0) replace_text_file(path(file), text);
-  } catch (const LibraryError& error) {
-    fault = std::string(error.what()) + "; see that -output_folder is writable and its disk has room";
-  }
-  throw_together(comm_, fault);
+  stop_together(comm_, is_root(comm_) ? try_replace_text_file(path(file), text) : "");
 }
 
 }  // namespace slipscale

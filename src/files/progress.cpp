@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 
 // A line stays below 80 columns: on a narrower terminal the carriage return would not reach its beginning.
 constexpr double between_lines = 0.5, between_looks = 0.05;  // s
-
-bool is_first_rank() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank == 0;
-}
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -45,7 +40,7 @@ std::string progress_line(double part, std::int64_t step, double time, double se
 }
 
 Progress::Progress(const std::string& mode, double start_time, double end_time)
-    : Progress(mode != "none" && is_first_rank() && writes_to_terminal(), start_time, end_time) {}
+    : Progress(mode != "none" && is_root(PETSC_COMM_WORLD) && writes_to_terminal(), start_time, end_time) {}
 
 Progress::Progress(bool on, double start_time, double end_time)
     : on_(on), start_(start_time), end_(end_time) {}

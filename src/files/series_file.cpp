@@ -1,34 +1,26 @@
 #include "slipscale/files/series_file.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numeric>
 
-#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
 namespace {
 
-constexpr double dataset_overhead =
-    16384 + 2000;  // bytes: the last, partly filled chunk; headers and attributes
-
 constexpr std::size_t chunk_bytes = 16384;  ///< small, because every chunk is written whole, rows or no rows
+constexpr std::size_t header_bytes = 2800;    ///< of a growing dataset: header, attributes, index, its group
+constexpr std::size_t constant_bytes = 1800;  ///< of one that does not grow
 constexpr std::size_t batch_bytes = 8 << 20;  ///< a batch this large does not wait for the clock
 constexpr std::size_t index_bytes = 4096;     ///< what HDF5's index of the chunks may grow by
 constexpr double writing_share = 0.02;  ///< batches are spaced so that writing takes no more of the time
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A killed run must leave a readable file, and a running one must let readers in: the oldest file format
-/// (files written with the latest were unreadable after a kill) and no file locking.
-Hdf5File create_file(const std::string& path) {
-  Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
-  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
-  return Hdf5File(
-      hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
 }
 
 hid_t file_type(SeriesFile::Storage storage) {
@@ -39,6 +31,12 @@ hid_t memory_type(SeriesFile::Storage storage) {
   return storage == SeriesFile::Storage::byte ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
 }
 
+/// As many as make a chunk of a good size, and no more than there will be.
+hsize_t rows_in_chunk(double expected, std::size_t row) {
+  const double most = static_cast<double>(chunk_bytes) / static_cast<double>(std::max<std::size_t>(row, 1));
+  return static_cast<hsize_t>(std::max(1.0, std::floor(std::min(most, expected))));
+}
+
 std::vector<hsize_t> rows_of(hsize_t rows, const std::vector<hsize_t>& row_shape) {
   std::vector<hsize_t> shape{rows};
   shape.insert(shape.end(), row_shape.begin(), row_shape.end());
@@ -47,21 +45,22 @@ std::vector<hsize_t> rows_of(hsize_t rows, const std::vector<hsize_t>& row_shape
 
 }  // namespace
 
-/// Runs `action` unless something failed before; its failure becomes the fault.
+/// Runs `action` unless something failed before; its failure becomes the fault, and the file is cut off.
 template <class Action>
 void SeriesFile::guarded(const char* what, Action action) {
   if (!fault_.empty()) return;
   try {
     action();
   } catch (const std::exception& error) {
-    fault_ = path_ + " " + what + ": " + error.what();
+    fault_ = write_fault(path_, what + std::string(error.what()));
+    if (file_.open()) cut_off(file_);
   }
 }
 
-SeriesFile::SeriesFile(std::string path, double seconds)
-    : path_(std::move(path)), seconds_(seconds), pause_(seconds) {
+SeriesFile::SeriesFile(std::string path, double seconds, double expected_rows)
+    : path_(std::move(path)), seconds_(seconds), pause_(seconds), expected_rows_(expected_rows) {
   keep_hdf5_messages();
-  guarded("cannot be opened for writing", [&] { file_ = create_file(path_); });
+  guarded("", [&] { file_ = create_file(path_); });
 }
 
 SeriesFile::~SeriesFile() { close(); }
@@ -70,10 +69,12 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
                     const std::string& description, Storage storage) {
   const hsize_t entries =
       std::accumulate(row_shape.begin(), row_shape.end(), hsize_t{1}, std::multiplies<>());
-  Column column{path, row_shape, storage, entries * (storage == Storage::byte ? 1 : sizeof(double)), {}, {}};
-  guarded("cannot be written", [&] {
+  Column column{path, row_shape, storage, entries * (storage == Storage::byte ? 1 : sizeof(double)),
+                0,    {},        {}};
+  guarded("", [&] {
     if (rows_ > 0) throw LibraryError("'" + path + "' was declared after the first row");
-    const hsize_t rows_per_chunk = std::max<hsize_t>(1, chunk_bytes / std::max<std::size_t>(column.bytes, 1));
+    const hsize_t rows_per_chunk = rows_in_chunk(expected_rows_, column.bytes);
+    column.chunk = rows_per_chunk * column.bytes;
     column.dataset = create_dataset(file_, path, file_type(storage), rows_of(0, row_shape),
                                     rows_of(H5S_UNLIMITED, row_shape), rows_of(rows_per_chunk, row_shape));
     describe_dataset(column.dataset, units, description);
@@ -85,12 +86,21 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
 
 void SeriesFile::constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
                           const std::string& units, const std::string& description) {
-  guarded("cannot be written", [&] {
-    const Hdf5Dataset dataset = create_dataset(file_, path, H5T_IEEE_F64LE, shape);
-    hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "'" + path + "'");
-    describe_dataset(dataset, units, description);
-    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "'" + path + "'");
-  });
+  const auto count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+  constants_.push_back({path, shape, units, description, {values, values + count}});
+}
+
+void SeriesFile::about(const std::string& name, const std::string& text) {
+  guarded("", [&] { write_attribute(file_, name, text); });
+}
+
+void SeriesFile::write_constants() {
+  for (const Constant& each : constants_) {
+    const Hdf5Dataset dataset = create_dataset(file_, each.path, H5T_IEEE_F64LE, each.shape);
+    hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, each.values.data()), each.path);
+    describe_dataset(dataset, each.units, each.description);
+  }
+  constants_.clear();
 }
 
 void SeriesFile::append(int id, const double* row) { append_bytes(id, row, Storage::real); }
@@ -120,12 +130,14 @@ void SeriesFile::end_row() {
 
 void SeriesFile::flush() {
   const auto start = Clock::now();
-  guarded("cannot be written (disk full?)", [&] {
-    if (!file_.open() || rows_ == written_) return;
+  guarded("", [&] {
+    if (!file_.open() || (rows_ == written_ && constants_.empty())) return;
     reserve();
+    write_constants();
     for (Column& column : columns_) write_batch(column);
     hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
     written_ = rows_;
+    flushed_ = true;
   });
   pause_ = std::max(seconds_, seconds_since(start) / writing_share);
   last_ = Clock::now();
@@ -135,7 +147,9 @@ void SeriesFile::reserve() {
   hsize_t size = 0, bytes = 0;
   hdf5(H5Fget_filesize(file_, &size), "size");
   for (const Column& column : columns_)
-    bytes += column.batch.size() + chunk_bytes + column.bytes + index_bytes;
+    bytes += column.batch.size() + column.chunk + column.bytes + index_bytes;
+  if (written_ == 0) bytes += header_bytes * columns_.size();
+  for (const Constant& each : constants_) bytes += constant_bytes + sizeof(double) * each.values.size();
   reserve_space(path_, size, bytes);
 }
 
@@ -158,15 +172,32 @@ void SeriesFile::write_batch(Column& column) {
 void SeriesFile::close() {
   if (!file_.open()) return;
   flush();
-  for (Column& column : columns_)
-    if (column.dataset.close() < 0 && fault_.empty())
-      fault_ = path_ + " cannot be written (disk full?): " + hdf5_message();
-  if (file_.close() < 0 && fault_.empty())
-    fault_ = path_ + " cannot be closed (disk full?): " + hdf5_message();
+  hsize_t size = 0;
+  guarded("closing: ", [&] {
+    for (Column& column : columns_)
+      if (column.dataset.close() < 0) throw LibraryError(hdf5_message());
+    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
+    hdf5(H5Fget_filesize(file_, &size), "size");
+    flushed_ = true;
+  });
+  columns_.clear();
+  const bool closed = file_.close() >= 0;
+  if (!flushed_) (void)std::remove(path_.c_str());  // not a file that anybody could read
+  guarded("closing: ", [&] {
+    if (!closed) throw LibraryError(hdf5_message());
+    give_back_space(path_, size);
+  });
 }
 
-double series_bytes(double rows, double row_bytes, int datasets) {
-  return rows * row_bytes + datasets * dataset_overhead;
+double SeriesFile::bytes(double rows) const {
+  double sum = 0;
+  for (const Column& column : columns_) {
+    const double chunk = static_cast<double>(std::max<std::size_t>(column.chunk, 1));
+    sum += header_bytes + chunk * std::ceil(rows * static_cast<double>(column.bytes) / chunk);
+  }
+  for (const Constant& each : constants_)
+    sum += constant_bytes + static_cast<double>(sizeof(double) * each.values.size());
+  return sum;
 }
 
 }  // namespace slipscale

@@ -1,33 +1,47 @@
 #include "slipscale/files/shared_file.hpp"
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
+#include <cstring>
 #include <functional>
 #include <numeric>
 
-#include "disk_space.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
+#include "slipscale/files/collect_rows.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
 namespace {
 
 constexpr hsize_t series_chunk = 512;
 
-void write_rows(hid_t dataset, const DatasetSlice& slice, hid_t type, const void* rows,
-                const std::string& what) {
+void write_rows(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t begin, hsize_t count, hid_t type,
+                const void* rows, const std::string& what) {
   const Hdf5Space target(hdf5(H5Dget_space(dataset), what));
-  std::vector<hsize_t> start(slice.shape.size(), 0), size(slice.shape);
-  size[0] = slice.count;
-  start[0] = slice.begin;
+  std::vector<hsize_t> start(shape.size(), 0), size(shape);
+  size[0] = count;
+  start[0] = begin;
   const Hdf5Space source(hdf5(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), what));
-  if (slice.count > 0)
-    hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
-  else
-    hdf5(H5Sselect_none(target), what);
-  const Hdf5Properties transfer(hdf5(H5Pcreate(H5P_DATASET_XFER), what));
-  hdf5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), what);
-  hdf5(H5Dwrite(dataset, type, source, target, transfer, rows), what);
+  hdf5(H5Sselect_hyperslab(target, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
+  hdf5(H5Dwrite(dataset, type, source, target, H5P_DEFAULT, rows), what);
+}
+
+/// Of a dataset of this shape one entry of every row.
+Hdf5Space column_of(const std::vector<hsize_t>& shape, std::size_t entry, const std::string& what) {
+  Hdf5Space space(hdf5(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), what));
+  std::vector<hsize_t> start(shape.size(), 0), size(shape.size(), 1);
+  size[0] = shape[0];
+  for (std::size_t d = shape.size(); d-- > 1; entry /= shape[d]) start[d] = entry % shape[d];
+  hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), what);
+  return space;
+}
+
+std::size_t row_bytes(const std::vector<hsize_t>& shape, hid_t type) {
+  const std::size_t number = H5Tget_size(type);
+  if (number == 0) throw LibraryError("size of a number: " + hdf5_message());
+  return std::accumulate(shape.begin() + 1, shape.end(), number, std::multiplies<>());
 }
 
 }  // namespace
@@ -37,10 +51,9 @@ void write_together(MPI_Comm comm, const std::string& path, const std::function<
   try {
     action();
   } catch (const LibraryError& error) {
-    fault = path + " cannot be written: " + error.what() +
-            "; see that -output_folder is writable and its disk has room";
+    fault = write_fault(path, error.what());
   }
-  throw_together(comm, fault);
+  stop_together(comm, fault);
 }
 
 DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row) {
@@ -48,17 +61,18 @@ DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row)
   return {std::move(shape_of_row), static_cast<hsize_t>(order.begin()), static_cast<hsize_t>(order.count())};
 }
 
+DatasetSlice slice_of_root(MPI_Comm comm, std::vector<hsize_t> shape) {
+  const hsize_t rows = is_root(comm) ? shape[0] : 0;
+  return {std::move(shape), 0, rows};
+}
+
 hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32; }
 
 SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
-    : comm_(comm), path_(path), appearance_(appearance) {
+    : comm_(comm), root_(is_root(comm)), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
-  MPI_Comm_rank(comm, &rank_);
   write_together(comm_, path_, [&] {
-    const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "preparing"));
-    hdf5(H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL), "preparing");
-    hdf5(H5Pset_coll_metadata_write(access, 1), "preparing");
-    file_ = Hdf5File(hdf5(H5Fcreate(name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "creating"));
+    if (root_) file_ = create_file(name());
   });
   try {
     reserve(bytes);
@@ -74,16 +88,45 @@ SharedFile::~SharedFile() {
 
 void SharedFile::discard() {
   (void)file_.close();
-  if (rank_ == 0) (void)std::remove(name().c_str());
+  if (root_) (void)std::remove(name().c_str());
+}
+
+void SharedFile::on_root(const std::function<void()>& action) {
+  write_together(comm_, path_, [&] {
+    if (!root_) return;
+    if (!file_.open()) throw LibraryError("an earlier write failed");
+    try {
+      action();
+    } catch (const LibraryError&) {
+      cut_off(file_);
+      (void)file_.close();
+      throw;
+    }
+  });
 }
 
 void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slice, hid_t type,
                        const void* rows, const std::function<void(hid_t dataset)>& more) {
-  write_together(comm_, path_, [&] {
-    const Hdf5Dataset dataset = create_dataset(file_, about.path, type, slice.shape);
+  Hdf5Dataset dataset;
+  on_root([&] {
+    dataset = create_dataset(file_, about.path, type, slice.shape);
     describe_dataset(dataset, about.units, about.text);
     more(dataset);
-    write_rows(dataset, slice, type, rows, about.path);
+  });
+  std::string fault;
+  // A rank that cannot write goes on receiving, so that nobody waits for it.
+  collect_rows(comm_, {slice.begin, slice.count, row_bytes(slice.shape, type)}, rows,
+               [&](std::uint64_t begin, std::uint64_t count, const void* piece) {
+                 if (!fault.empty()) return;
+                 try {
+                   write_rows(dataset, slice.shape, begin, count, type, piece, about.path);
+                 } catch (const LibraryError& error) {
+                   fault = error.what();
+                 }
+               });
+  on_root([&] {
+    if (!fault.empty()) throw LibraryError(fault);
+    if (dataset.close() < 0) throw LibraryError(hdf5_message());
   });
 }
 
@@ -94,7 +137,7 @@ void SharedFile::write(const DatasetDescription& about, const FileOrder& order,
 }
 
 void SharedFile::add_series(const DatasetDescription& about) {
-  write_together(comm_, path_, [&] {
+  on_root([&] {
     const Hdf5Dataset series =
         create_dataset(file_, about.path, H5T_IEEE_F64LE, {0}, {H5S_UNLIMITED}, {series_chunk});
     describe_dataset(series, about.units, about.text);
@@ -102,7 +145,7 @@ void SharedFile::add_series(const DatasetDescription& about) {
 }
 
 void SharedFile::append(const std::string& series, double value) {
-  write_together(comm_, path_, [&] {
+  on_root([&] {
     Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
     hsize_t length = 0;
     {
@@ -111,13 +154,34 @@ void SharedFile::append(const std::string& series, double value) {
     }
     const hsize_t longer = length + 1;
     hdf5(H5Dset_extent(dataset, &longer), series);
-    write_rows(dataset, {{longer}, length, rank_ == 0 ? 1u : 0u}, H5T_NATIVE_DOUBLE, &value, series);
+    write_rows(dataset, {longer}, length, 1, H5T_NATIVE_DOUBLE, &value, series);
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
   });
 }
 
+void SharedFile::write_view(const DatasetDescription& about, const DatasetView& view) {
+  on_root([&] {
+    const std::string& what = about.path;
+    const int rank = static_cast<int>(view.shape.size());
+    const Hdf5Properties creation(hdf5(H5Pcreate(H5P_DATASET_CREATE), what));
+    for (const DatasetView::Entry& entry : view.entries) {
+      std::vector<hsize_t> from{view.shape[0]};
+      from.insert(from.end(), entry.row.begin(), entry.row.end());
+      const Hdf5Space target = column_of(view.shape, entry.to, what),
+                      source = column_of(from, entry.at, what);
+      hdf5(H5Pset_virtual(creation, target, ".", entry.from.c_str(), source), what);
+    }
+    const Hdf5Space space(hdf5(H5Screate_simple(rank, view.shape.data(), nullptr), what));
+    const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), what));
+    hdf5(H5Pset_create_intermediate_group(links, 1), what);
+    const Hdf5Dataset dataset(
+        hdf5(H5Dcreate2(file_, what.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), what));
+    describe_dataset(dataset, about.units, about.text);
+  });
+}
+
 void SharedFile::link(const std::string& from, const std::string& to) {
-  write_together(comm_, path_, [&] {
+  on_root([&] {
     const Hdf5Properties links(hdf5(H5Pcreate(H5P_LINK_CREATE), to));
     hdf5(H5Pset_create_intermediate_group(links, 1), to);
     hdf5(H5Lcreate_hard(file_, from.c_str(), file_, to.c_str(), links, H5P_DEFAULT), to);
@@ -125,7 +189,7 @@ void SharedFile::link(const std::string& from, const std::string& to) {
 }
 
 void SharedFile::describe(const std::string& object, const std::function<void(hid_t object)>& attributes) {
-  write_together(comm_, path_, [&] {
+  on_root([&] {
     const Hdf5Object opened(hdf5(H5Oopen(file_, object.c_str(), H5P_DEFAULT), object));
     attributes(opened);
   });
@@ -133,25 +197,27 @@ void SharedFile::describe(const std::string& object, const std::function<void(hi
 
 void SharedFile::reserve(double bytes) {
   write_together(comm_, path_, [&] {
-    if (rank_ == 0)
-      reserve_space(name(), std::filesystem::file_size(name()), static_cast<std::uint64_t>(bytes));
+    if (!root_ || !file_.open()) return;
+    hsize_t used = 0;
+    hdf5(H5Fget_filesize(file_, &used), "size");
+    reserve_space(name(), used, static_cast<std::uint64_t>(bytes));
   });
 }
 
 void SharedFile::flush() {
-  write_together(comm_, path_, [&] { hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing"); });
+  on_root([&] { hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing"); });
 }
 
 void SharedFile::finish() {
-  write_together(comm_, path_, [&] {
+  on_root([&] {
+    hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
+    hsize_t size = 0;
+    hdf5(H5Fget_filesize(file_, &size), "size");
     if (file_.close() < 0) throw LibraryError(hdf5_message());
+    give_back_space(name(), size);
+    if (appearance_ == Appearance::whole && std::rename(name().c_str(), path_.c_str()) != 0)
+      throw LibraryError(std::strerror(errno));
   });
-  if (appearance_ == Appearance::whole)
-    write_together(comm_, path_, [&] {
-      std::error_code code;
-      if (rank_ == 0) std::filesystem::rename(name(), path_, code);
-      if (code) throw LibraryError(code.message());
-    });
   finished_ = true;
 }
 

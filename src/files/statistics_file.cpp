@@ -35,32 +35,26 @@ std::vector<double> deviation(const std::vector<double>& covariance) {
   return roots;
 }
 
-void write(SharedFile& file, const FileOrder& cells, const StatisticsSample& sample, const Quantity& quantity,
-           const FieldStatistics& found) {
+/// Returns what XDMF shows of it.
+std::vector<XdmfAttribute> write(SharedFile& file, const MeshLayout& mesh, const FileOrder& cells,
+                                 const StatisticsSample& sample, const Quantity& quantity,
+                                 const FieldStatistics& found) {
   const std::string group = "/statistics/" + quantity.name + "/", of = " of the " + quantity.name;
   const std::string components = "; xx, yy and xy", &units = quantity.units;
-  file.write({group + "mean", units, "time mean" + of + components}, cells, {3}, found.mean.data());
-  file.write({group + "deviation", units, "standard deviation" + of + components}, cells, {3},
-             deviation(found.covariance).data());
+  std::vector<XdmfAttribute> shown;
+  const auto add = [&](const std::string& name, const std::string& text, const std::vector<double>& values) {
+    file.write({group + name, units, text + of + components}, cells, {3}, values.data());
+    const auto parts = write_components(file, mesh, {group + name, units, "the " + text + of}, {3},
+                                        {"xx", "yy", "xy"}, quantity.name + "_" + name);
+    shown.insert(shown.end(), parts.begin(), parts.end());
+  };
+  add("mean", "time mean", found.mean);
+  add("deviation", "standard deviation", deviation(found.covariance));
   file.write({group + "covariance", units == "1" ? "1" : units + "2",
               "covariance" + of + "; xx.xx, yy.yy, xy.xy, yy.xy, xx.xy and xx.yy"},
              cells, {6}, found.covariance.data());
-  if (!sample.tails) return;
-  for (const Statistic& each : tails(sample.quantile))
-    file.write({group + each.name, units, each.text + of + components}, cells, {3},
-               (found.*each.values).data());
-}
-
-std::vector<XdmfAttribute> attributes(const StatisticsSample& sample) {
-  std::vector<std::string> names{"mean", "deviation"};
   if (sample.tails)
-    for (const Statistic& each : tails(sample.quantile)) names.push_back(each.name);
-  std::vector<XdmfAttribute> shown{xdmf_region()};
-  for (const Quantity& quantity : quantities)
-    for (const std::string& name : names)
-      shown.push_back({.name = quantity.name + "_" + name,
-                       .path = "/statistics/" + quantity.name + "/" + name,
-                       .row = {3}});
+    for (const Statistic& each : tails(sample.quantile)) add(each.name, each.text, found.*each.values);
   return shown;
 }
 
@@ -72,8 +66,11 @@ void write_statistics(MPI_Comm comm, const MeshImage& image, const StatisticsSam
   SharedFile file(comm, folder + "/" + name + ".h5",
                   statistics_bytes(image.points().total(), image.cells().total()));
   const MeshLayout layout = write_mesh(comm, file, image);
-  write(file, image.cells(), sample, quantities[0], stress);
-  write(file, image.cells(), sample, quantities[1], strain);
+  std::vector<XdmfAttribute> shown{xdmf_region()};
+  for (const auto& [quantity, found] : {std::pair{&quantities[0], &stress}, {&quantities[1], &strain}}) {
+    const auto parts = write(file, layout, image.cells(), sample, *quantity, *found);
+    shown.insert(shown.end(), parts.begin(), parts.end());
+  }
   file.describe("/statistics", [&](hid_t group) {
     write_attribute(group, "from", sample.from);
     write_attribute(group, "to", sample.to);
@@ -81,13 +78,13 @@ void write_statistics(MPI_Comm comm, const MeshImage& image, const StatisticsSam
     write_attribute(group, "quantile", sample.quantile);
   });
   file.finish();
-  write_xdmf(comm, folder + "/" + name + ".xdmf", {name + ".h5", "statistics", layout, attributes(sample)});
+  write_xdmf(comm, folder + "/" + name + ".xdmf", {name + ".h5", "statistics", layout, shown});
 }
 
 double statistics_bytes(std::int64_t points, std::int64_t cells) {
   const double tensors = 2 * (6 * 3 + 6) * sizeof(double);
   return tensors * static_cast<double>(cells) +
-         mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) + 4 * group_overhead;
+         mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) + 8 * group_overhead;
 }
 
 }  // namespace slipscale

@@ -1,5 +1,7 @@
 #include "slipscale/files/xdmf.hpp"
 
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/output_folder.hpp"
 
@@ -79,6 +81,20 @@ std::string frames(const XdmfDocument& document) {
 
 }  // namespace
 
+std::vector<XdmfAttribute> write_components(SharedFile& file, const MeshLayout& mesh,
+                                            const DatasetDescription& about, const std::vector<hsize_t>& row,
+                                            const std::vector<std::string>& components,
+                                            const std::string& name) {
+  std::vector<XdmfAttribute> shown;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const std::string end = "_" + components[k];
+    file.write_view({about.path + end, about.units, components[k] + " of " + about.text},
+                    {{static_cast<hsize_t>(mesh.cells)}, {{0, about.path, row, k}}});
+    shown.push_back({.name = name + end, .path = about.path + end, .row = {}});
+  }
+  return shown;
+}
+
 XdmfAttribute xdmf_region() {
   return {"region", XdmfAttribute::Centre::cell, "/mesh/region", {}, XdmfAttribute::Number::index};
 }
@@ -91,11 +107,7 @@ std::string xdmf_text(const XdmfDocument& document) {
 }
 
 void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  write_together(comm, path, [&] {
-    if (rank == 0) replace_text_file(path, xdmf_text(document));
-  });
+  stop_together(comm, is_root(comm) ? try_replace_text_file(path, xdmf_text(document)) : "");
 }
 
 }  // namespace slipscale

@@ -4,20 +4,39 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
+#include "slipscale/base/plain_yaml.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
 namespace {
 
+/// What YAML takes for the end of a line besides \n: next line, line and paragraph separator, in UTF-8.
+constexpr std::array<std::pair<const char*, const char*>, 3> line_breaks{
+    {{"\xC2\x85", "\\N"}, {"\xE2\x80\xA8", "\\L"}, {"\xE2\x80\xA9", "\\P"}}};
+
 /// Whether YAML reads the bare text as that text. Numbers and true/false may stand bare: that is what they
-/// are.
+/// are. Not so yes, no, on and off, which may be names, nor what YAML takes for a number or a date of its
+/// own.
 bool bare(const std::string& text) {
   if (text.empty() || text.front() == ' ' || text.back() == ' ') return false;
-  if (text == "~" || text == "null" || text == "-" || text == "---" || text == "...") return false;
+  switch (plain_yaml(text)) {
+    case PlainYaml::flag:
+      if (text != "true" && text != "false") return false;
+      break;
+    case PlainYaml::nothing:
+    case PlainYaml::other:
+      return false;
+    default:
+      break;
+  }
+  if (text == "-" || text == "---" || text == "..." || text == "<<") return false;
   if (std::string("?:,[]{}#&*!|>'\"%@`").find(text.front()) != std::string::npos) return false;
   if (text.compare(0, 2, "- ") == 0 || text.back() == ':') return false;
   if (text.find(": ") != std::string::npos || text.find(" #") != std::string::npos) return false;
+  for (const auto& [letter, escape] : line_breaks)
+    if (text.find(letter) != std::string::npos) return false;
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
@@ -33,6 +52,9 @@ std::string scalar(const std::string& text) {
     else
       quoted += c;
   }
+  for (const auto& [letter, escape] : line_breaks)
+    for (auto at = quoted.find(letter); at != std::string::npos; at = quoted.find(letter))
+      quoted.replace(at, std::string(letter).size(), escape);
   return quoted + "\"";
 }
 

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "plex.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
@@ -129,8 +130,7 @@ class Extraction {
   }
 
   void report() {
-    int ranks = 1;
-    MPI_Comm_size(comm_, &ranks);
+    const int ranks = ranks_of(comm_);
     PetscInt mine[5] = {0, 0, mesh_.nodes.owned, mesh_.nodes.size() - mesh_.nodes.owned, cut_edges()};
     for (char owned : mesh_.cells.owned) ++mine[owned ? 0 : 1];
     std::vector<PetscInt> all(static_cast<std::size_t>(5 * ranks));

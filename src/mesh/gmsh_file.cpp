@@ -1,11 +1,10 @@
 #include "gmsh_file.hpp"
 
-#include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "gmsh_sections.hpp"
+#include "slipscale/base/error.hpp"
 
 namespace slipscale::mesh_stages {
 namespace {
@@ -17,70 +16,84 @@ std::uint64_t fnv1a(const std::string& bytes) {
   return hash;
 }
 
-std::vector<PhysicalName> physical_names(std::string_view text) {
-  std::vector<PhysicalName> names;
-  std::istringstream section{std::string(text)};
-  std::string line;
-  std::getline(section, line);
-  std::getline(section, line);
-  while (std::getline(section, line)) {
-    std::istringstream fields(line);
-    PhysicalName entry;
-    if (!(fields >> entry.dimension >> entry.tag)) continue;
-    const auto open = line.find('"'), close = line.rfind('"');
-    if (open == std::string::npos || close <= open) continue;
-    entry.name = line.substr(open + 1, close - open - 1);
-    names.push_back(entry);
+std::string bytes_of(const std::string& path) {
+  std::error_code none;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || !std::filesystem::is_regular_file(path, none))
+    throw UserError("-mesh_file: cannot read '" + path + "'; give the path of a gmsh file (MSH 4.1)");
+  std::string bytes(std::filesystem::file_size(path), '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+/// What gmsh (4.8 and later) does to a file that it can read and we cannot.
+std::string conversion(const std::string& path) {
+  const auto quoted = [](const std::string& word) {
+    return word.find_first_of(" '\"") == word.npos ? word : '"' + word + '"';
+  };
+  std::filesystem::path other(path);
+  other.replace_filename(other.stem().string() + "-41.msh");
+  return "gmsh -0 " + quoted(path) + " -format msh41 -o " + quoted(other.string());
+}
+
+/// What cannot be converted, since gmsh loses the pairs of nodes when it reads MSH 2.
+bool loses_periods(double version, const std::string& bytes) {
+  return version < 4 && bytes.find("\n$Periodic") != bytes.npos;
+}
+
+/// Reads the section $MeshFormat. What stands before it is skipped.
+void read_format(GmshStream& in, const std::string& path, const std::string& bytes) {
+  std::string name = in.open();
+  while (!name.empty() && name != "MeshFormat") {
+    in.skip();
+    name = in.open();
   }
-  return names;
+  const std::string version(in.word()), form(in.word()), width(in.word());
+  double number = 0;
+  std::from_chars(version.data(), version.data() + version.size(), number);
+  if (number != 4.1) {
+    const std::string is_old = "is written as MSH " + version.substr(0, 8) + ", and only MSH 4.1 is read; ";
+    throw GmshFault(is_old +
+                    (loses_periods(number, bytes)
+                         ? "it would lose its periodicity when it is converted, so mesh its geometry "
+                           "again with gmsh -2 -format msh41"
+                         : "convert it with " + conversion(path)));
+  }
+  if ((form != "0" && form != "1") || width != "8")
+    throw GmshFault("is written as no MSH 4.1 of 8-byte sizes; convert it with " + conversion(path));
+  in.line();
+  if (form == "1") {
+    in.set_binary();
+    if (in.integer() != 1)
+      throw GmshFault("is written in the byte order of another machine; convert it with " + conversion(path));
+  }
+  in.close();
 }
 
 }  // namespace
 
-GmshFile read_gmsh(const std::string& path, std::string& fault) {
-  GmshFile file;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(path)) {
-    fault = "-mesh_file: cannot read '" + path + "'; give the path of a gmsh file (MSH 4.1)";
-    return file;
-  }
-  std::string bytes(std::filesystem::file_size(path), '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  const auto head = bytes.find("$MeshFormat");
-  if (head == std::string::npos || head > 4096 ||
-      !(std::istringstream(bytes.substr(head + 11, 64)) >> file.version)) {
-    fault = "-mesh_file: '" + path + "' is not a gmsh mesh; write one with gmsh -2 -format msh41";
-    return file;
-  }
-  const GmshSections sections(bytes);
-  GmshText text = read_gmsh_text(bytes, sections);
-  if (!text.fault.empty()) fault = "mesh '" + path + "' " + text.fault;
-  file.mesh = std::move(text.mesh);
-  file.is_read = file.mesh.has_value();
-  file.checksum = fnv1a(bytes);
-  file.names = physical_names(sections.text("PhysicalNames"));
-  file.has_periodic_section = sections.has("Periodic");
-  return file;
+std::string sentence(const std::string& path, const std::string& fault) {
+  std::string text = "mesh '" + path + "'" + (fault.starts_with(":") ? "" : " ") + fault;
+  for (char& c : text)  // of a damaged name
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return text;
 }
 
-std::string fault_in_names(const std::string& path, const std::vector<PhysicalName>& names) {
-  static const std::vector<std::string> taken{"depth", "celltype", "vtk", "ghost", "dim", "pyre", "all"};
-  if (std::none_of(names.begin(), names.end(), [](const auto& n) { return n.dimension == 2; }))
-    return "mesh '" + path + "' names no region; add Physical Surface(\"matrix\") = {…}; to its geometry";
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].name.empty() || names[i].name.find_first_of(" \t,:#'") != std::string::npos)
-      return "mesh '" + path + "' has a physical group named '" + names[i].name +
-             "', which no option can spell; use letters, digits, '-' and '_'";
-    if (std::find(taken.begin(), taken.end(), names[i].name) != taken.end())
-      return "mesh '" + path + "' has a physical group named '" + names[i].name +
-             "', a name that has a meaning of its own; rename it";
-    for (std::size_t j = 0; j < i; ++j)
-      if (names[i].name == names[j].name)
-        return "mesh '" + path + "' uses the name '" + names[i].name +
-               "' for two physical groups; give each its own";
+GmshFile read_gmsh(const std::string& path) {
+  const std::string bytes = bytes_of(path);
+  if (bytes.starts_with("$NOD"))
+    throw UserError(
+        sentence(path, "is written as MSH 1, and only MSH 4.1 is read; convert it with " + conversion(path)));
+  if (bytes.substr(0, 4096).find("$MeshFormat") == bytes.npos)
+    throw UserError("-mesh_file: '" + path + "' is not a gmsh mesh; write one with gmsh -2 -format msh41");
+  try {
+    GmshStream stream(bytes);
+    read_format(stream, path, bytes);
+    return {fnv1a(bytes), read_gmsh_mesh(stream)};
+  } catch (const GmshFault& fault) {
+    throw UserError(sentence(path, fault.what()));
   }
-  return "";
 }
 
 }  // namespace slipscale::mesh_stages

@@ -1,33 +1,23 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "gmsh_text.hpp"
+#include "gmsh_mesh.hpp"
 
 namespace slipscale::mesh_stages {
 
-struct PhysicalName {
-  int dimension, tag;
-  std::string name;
-};
-
-/// A gmsh file as rank 0 has read it; the other ranks know all but the mesh.
+/// A gmsh file as rank 0 has read it.
 struct GmshFile {
-  double version = 0;
-  bool has_periodic_section = false;
-  bool is_read = false;  ///< `mesh` holds it on rank 0; otherwise PETSc must read it
-  std::uint64_t checksum = 0;
-  std::vector<PhysicalName> names;
-  std::optional<GmshMesh> mesh;
+  std::uint64_t checksum = 0;  ///< FNV-1a of its bytes
+  GmshMesh mesh;
 };
 
-/// Reads the file at `path`; `fault` is set to one sentence when it is no usable gmsh file. One rank.
-GmshFile read_gmsh(const std::string& path, std::string& fault);
+/// Reads a file of MSH 4.1, text or binary. Throws UserError for what is no such file, with the command that
+/// makes it one, and for one that is damaged. One rank.
+GmshFile read_gmsh(const std::string& path);
 
-/// Checks the physical names: at least one surface, none used twice, none that a DMPlex uses itself.
-std::string fault_in_names(const std::string& path, const std::vector<PhysicalName>& names);
+/// The sentence about a fault in the mesh file at `path`.
+std::string sentence(const std::string& path, const std::string& fault);
 
 }  // namespace slipscale::mesh_stages

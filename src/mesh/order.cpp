@@ -22,8 +22,7 @@ Rows cells_around(const std::vector<CellVertices>& cells, PetscInt vertices) {
 namespace {
 
 /// Nodes that share a cell, ascending; the node itself included, as PETSc's ordering expects.
-Rows node_graph(const std::vector<CellVertices>& cells, PetscInt node_count) {
-  const Rows around = cells_around(cells, node_count);
+Rows node_graph(const std::vector<CellVertices>& cells, const Rows& around, PetscInt node_count) {
   Rows graph;
   graph.start.reserve(static_cast<std::size_t>(node_count) + 1);
   graph.start.push_back(0);
@@ -85,7 +84,7 @@ std::vector<PetscInt> number_cells(std::vector<CellVertices> cells,
 }  // namespace
 
 void number_whole(Whole& whole) {
-  Rows graph = node_graph(whole.plain.cells, whole.node_count);
+  Rows graph = node_graph(whole.plain.cells, whole.around, whole.node_count);
   whole.node_number = reverse_cuthill_mckee(graph, whole.node_count);
   whole.cell_number = number_cells(whole.plain.cells, whole.node_number);
 }

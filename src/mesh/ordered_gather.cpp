@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale {
 
 OrderedGather::OrderedGather(MPI_Comm comm, const std::vector<PetscInt>& keys) : comm_(comm) {
-  int rank = 0, ranks = 1;
   const int mine = static_cast<int>(keys.size());
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &ranks);
+  const int rank = rank_of(comm), ranks = ranks_of(comm);
   counts_.resize(static_cast<std::size_t>(ranks));
   starts_.assign(static_cast<std::size_t>(ranks), 0);
   MPI_Gather(&mine, 1, MPI_INT, counts_.data(), 1, MPI_INT, 0, comm);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "slipscale/base/parallel.hpp"
 #include "stages.hpp"
 
 namespace slipscale::mesh_stages {
@@ -33,8 +34,7 @@ void find_beyond(CellSide side, const std::vector<CellVertices>& cells, const Ro
 }
 
 /// Cells that share an edge, ascending. Rank 0.
-Rows cell_graph(const std::vector<CellVertices>& cells, PetscInt vertices) {
-  const Rows around = cells_around(cells, vertices);
+Rows cell_graph(const std::vector<CellVertices>& cells, const Rows& around) {
   std::vector<CellVertices> beyond(cells.size(), {-1, -1, -1, -1});
   Rows graph;
   graph.start.reserve(cells.size() + 1);
@@ -105,7 +105,7 @@ std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, c
   if (partitioner == Partitioner::simple) return runs_of_the_order(ranks, whole.cell_number);
   const auto& cells = whole.plain.cells;
   Rows graph;
-  if (!cells.empty()) graph = cell_graph(cells, static_cast<PetscInt>(whole.plain.position.size()));
+  if (!cells.empty()) graph = cell_graph(cells, whole.around);
   if (partitioner == Partitioner::ptscotch) return ptscotch_parts(comm, std::move(graph), ranks);
   return cells.empty() ? std::vector<PetscInt>{} : metis_parts(std::move(graph), ranks);
 }
@@ -113,8 +113,7 @@ std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, c
 }  // namespace
 
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
+  const int ranks = ranks_of(comm);
   if (ranks == 1) return;
   const std::vector<PetscInt> part = parts(comm, partitioner, ranks, whole);
   std::vector<PetscInt> sizes(static_cast<std::size_t>(ranks), 0), points(part.size());

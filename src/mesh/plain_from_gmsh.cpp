@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "plain_mesh.hpp"
 
@@ -38,14 +39,19 @@ void keep_corners(const GmshMesh& file, const std::vector<int>& original, const 
   settle_seam(mesh);
 }
 
-/// The entities of each group, as a list of groups for each entity.
+/// The groups of each entity: indices into `groups`, which are all that have elements, ascending.
 template <class Group>
-std::vector<std::vector<std::size_t>> groups_of(const std::vector<std::vector<long>>& tags,
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<std::vector<int>>& tags,
                                                 const std::vector<Group>& groups) {
+  std::unordered_map<int, std::size_t> index;
+  for (std::size_t g = 0; g < groups.size(); ++g) index.emplace(groups[g].tag, g);
   std::vector<std::vector<std::size_t>> found(tags.size());
-  for (std::size_t entity = 0; entity < tags.size(); ++entity)
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      if (std::ranges::find(tags[entity], groups[g].tag) != tags[entity].end()) found[entity].push_back(g);
+  for (std::size_t entity = 0; entity < tags.size(); ++entity) {
+    for (const int tag : tags[entity])
+      if (const auto group = index.find(tag); group != index.end()) found[entity].push_back(group->second);
+    std::ranges::sort(found[entity]);
+    found[entity].erase(std::ranges::unique(found[entity]).begin(), found[entity].end());
+  }
   return found;
 }
 
@@ -76,7 +82,8 @@ void find_boundaries(const GmshMesh& file, const std::vector<PetscInt>& vertex,
   std::vector<char> on_line(mesh.position.size(), 0);
   for (const GmshMesh::Line& line : file.lines)
     if (!groups[line.curve].empty())
-      for (const int node : line.nodes) on_line[vertex[node]] = 1;
+      for (const int node : line.nodes)
+        if (vertex[node] >= 0) on_line[vertex[node]] = 1;
   const std::vector<SeenSide> seen = sides_between(on_line, mesh);
   mesh.boundaries.resize(boundaries.size());
   for (const GmshMesh::Line& line : file.lines) {
@@ -84,6 +91,9 @@ void find_boundaries(const GmshMesh& file, const std::vector<PetscInt>& vertex,
     const PetscInt a = vertex[line.nodes[0]], b = vertex[line.nodes[1]];
     const auto edge = std::ranges::equal_range(seen, std::pair(std::min(a, b), std::max(a, b)), {},
                                                [](const SeenSide& s) { return std::pair(s.low, s.high); });
+    if (edge.empty())
+      throw GmshFault("has a curve of the group '" + boundaries[groups[line.curve].front()].name +
+                      "' that belongs to no cell; save only the physical groups that bound a meshed surface");
     for (const std::size_t g : groups[line.curve]) {
       mesh.boundaries[g].sides.push_back(edge.front().side);
       if (edge.size() > 1) mesh.boundaries[g].interior = true;
@@ -98,10 +108,33 @@ void find_boundaries(const GmshMesh& file, const std::vector<PetscInt>& vertex,
 
 }  // namespace
 
-PlainMesh plain_mesh(const GmshMesh& file, const std::vector<Region>& regions,
-                     const std::vector<Boundary>& boundaries, bool cut) {
-  std::vector<int> original = file.original;
-  if (cut || original.empty()) {
+std::vector<int> turn_clockwise_surfaces(GmshMesh& file) {
+  std::vector<char> clockwise(file.surface_tags.size(), 1);
+  const auto corners = [](const GmshMesh::Cell& cell) { return cell.nodes[3] < 0 ? 3 : 4; };
+  const auto is_clockwise = [&](const GmshMesh::Cell& cell) {
+    CellGeometry shape;
+    if (corners(cell) == 4) shape.vertices.fill(0);
+    for (int k = 0; k < corners(cell); ++k) shape.corners[k] = file.nodes[cell.nodes[k]];
+    return shape.area() < 0;
+  };
+  for (const GmshMesh::Cell& cell : file.cells)
+    if (clockwise[cell.surface] && !is_clockwise(cell)) clockwise[cell.surface] = 0;
+  std::vector<char> turned(clockwise.size(), 0);
+  for (GmshMesh::Cell& cell : file.cells) {
+    if (!clockwise[cell.surface]) continue;
+    turned[cell.surface] = 1;
+    std::reverse(cell.nodes.begin() + 1, cell.nodes.begin() + corners(cell));
+  }
+  std::vector<int> tags;
+  for (std::size_t k = 0; k < turned.size(); ++k)
+    if (turned[k]) tags.push_back(file.surface_tags[k]);
+  return tags;
+}
+
+PlainMesh plain_mesh(const GmshMesh& file, const std::vector<int>& original_or_none,
+                     const std::vector<Region>& regions, const std::vector<Boundary>& boundaries) {
+  std::vector<int> original = original_or_none;
+  if (original.empty()) {
     original.resize(file.nodes.size());
     std::iota(original.begin(), original.end(), 0);
   }
@@ -119,7 +152,7 @@ PlainMesh plain_mesh(const GmshMesh& file, const std::vector<Region>& regions,
     CellVertices& corners = mesh.cells.emplace_back(CellVertices{-1, -1, -1, -1});
     for (std::size_t c = 0; c < 4 && cell.nodes[c] >= 0; ++c) corners[c] = vertex[cell.nodes[c]];
   }
-  if (!cut && !file.original.empty()) keep_corners(file, original, vertex, mesh);
+  if (!original_or_none.empty()) keep_corners(file, original, vertex, mesh);
   find_boundaries(file, vertex, boundaries, mesh);
   return mesh;
 }

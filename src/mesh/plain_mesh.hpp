@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "gmsh_text.hpp"
+#include "gmsh_mesh.hpp"
 #include "slipscale/mesh/mesh.hpp"
 
 /// The whole mesh before it is cut: on rank 0 all of it, elsewhere nothing.
@@ -60,10 +60,18 @@ struct PlainMesh {
   CellGeometry cell(PetscInt cell) const;
 };
 
-/// Vertices are the nodes that elements use, those that repeat another left out, in the order of the file.
-/// `cut` leaves the sides open that the file makes periodic.
-PlainMesh plain_mesh(const GmshMesh& file, const std::vector<Region>& regions,
-                     const std::vector<Boundary>& boundaries, bool cut);
+/// Turns the surfaces whose cells all run clockwise. Returns the tags of these surfaces.
+std::vector<int> turn_clockwise_surfaces(GmshMesh& file);
+
+/// Vertices are the nodes that cells use, those that repeat another left out, in the order of the file.
+/// `original` says of each node which one it repeats, itself where it repeats none; empty without a period.
+/// Throws GmshFault for a boundary that does not run along the cells.
+PlainMesh plain_mesh(const GmshMesh& file, const std::vector<int>& original,
+                     const std::vector<Region>& regions, const std::vector<Boundary>& boundaries);
+
+/// Cuts every cell into four: at the middle of its sides, and a quadrilateral at the mean of its corners. The
+/// first vertices are those of `mesh`.
+PlainMesh refined(const PlainMesh& mesh);
 
 /// Gives every vertex of a torus the lowest of the positions at which its cells see it, x first.
 void settle_seam(PlainMesh& mesh);

@@ -90,17 +90,12 @@ void set_own_corners(MPI_Comm comm, DM dm, const PlainMesh& mesh) {
 
 }  // namespace
 
-OwnedDM plex_of(MPI_Comm comm, const PlainMesh& mesh, bool with_edges) {
+OwnedDM plex_of(MPI_Comm comm, const PlainMesh& mesh) {
   OwnedDM dm;
   petsc(DMCreate(comm, dm.put()));
   petsc(DMSetType(dm, DMPLEX));
   petsc(DMSetDimension(dm, 2));
   set_cells(dm, mesh);
-  if (with_edges) {
-    OwnedDM complete;
-    petsc(DMPlexInterpolate(dm, complete.put()));
-    dm = std::move(complete);
-  }
   petsc(DMSetCoordinateDim(dm, 2));
   set_positions(comm, dm, mesh);
   int is_torus = mesh.is_torus();

@@ -23,25 +23,16 @@ PlexGeometry::~PlexGeometry() {
 
 void PlexGeometry::find_vertices() {
   PetscSection cones = nullptr;
-  PetscInt *points = nullptr, *orientations = nullptr, depth = 0;
-  petsc(DMPlexGetDepth(dm_, &depth));
+  PetscInt* points = nullptr;
   petsc(DMPlexGetConeSection(dm_, &cones));
   petsc(DMPlexGetCones(dm_, &points));
-  petsc(DMPlexGetConeOrientations(dm_, &orientations));
   petsc(DMPlexGetHeightStratum(dm_, 0, &begin_, &end_));
   vertices_.assign(static_cast<std::size_t>(end_ - begin_), {-1, -1, -1, -1});
   for (PetscInt cell = begin_; cell < end_; ++cell) {
     PetscInt corners = 0, first = 0;
     petsc(PetscSectionGetDof(cones, cell, &corners));
     petsc(PetscSectionGetOffset(cones, cell, &first));
-    for (PetscInt k = 0; k < std::min<PetscInt>(corners, 4); ++k) {
-      PetscInt& vertex = vertices_[cell - begin_][k];
-      vertex = points[first + k];
-      if (depth < 2) continue;
-      PetscInt ends = 0;  // an edge stands between
-      petsc(PetscSectionGetOffset(cones, vertex, &ends));
-      vertex = points[ends + (orientations[first + k] < 0 ? 1 : 0)];
-    }
+    std::copy_n(points + first, std::min<PetscInt>(corners, 4), vertices_[cell - begin_].begin());
   }
 }
 

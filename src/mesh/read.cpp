@@ -1,53 +1,8 @@
 #include "slipscale/mesh/read.hpp"
 
-#include "gmsh_file.hpp"
 #include "stages.hpp"
 
 namespace slipscale {
-namespace {
-
-using mesh_stages::GmshFile;
-
-void broadcast(MPI_Comm comm, std::string& text) {
-  int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm);
-}
-
-void broadcast(MPI_Comm comm, GmshFile& file) {
-  int count = static_cast<int>(file.names.size());
-  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  MPI_Bcast(&file.checksum, 1, MPI_UINT64_T, 0, comm);
-  MPI_Bcast(&file.has_periodic_section, 1, MPI_CXX_BOOL, 0, comm);
-  MPI_Bcast(&file.is_read, 1, MPI_CXX_BOOL, 0, comm);
-  file.names.resize(static_cast<std::size_t>(count));
-  for (auto& entry : file.names) {
-    MPI_Bcast(&entry.dimension, 1, MPI_INT, 0, comm);
-    MPI_Bcast(&entry.tag, 1, MPI_INT, 0, comm);
-    broadcast(comm, entry.name);
-  }
-}
-
-GmshFile read_file(MPI_Comm comm, const std::string& path) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  GmshFile file;
-  std::string fault;
-  if (rank == 0) {
-    file = mesh_stages::read_gmsh(path, fault);
-    if (fault.empty() && file.version < 4 && file.has_periodic_section)
-      fault = "mesh '" + path +
-              "' is periodic but written as MSH 2, which loses periodicity; use gmsh -format msh41";
-    if (fault.empty()) fault = mesh_stages::fault_in_names(path, file.names);
-  }
-  throw_together(comm, fault);
-  broadcast(comm, file);
-  return file;
-}
-
-}  // namespace
-
 Schema mesh_schema() {
   return {
       {"mesh_file", Kind::text, "", required, range::any,
@@ -90,13 +45,10 @@ MeshSource periodic_mesh_source(const Options& options) {
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   Mesh mesh;
   mesh.file = source.file;
-  GmshFile file = read_file(comm, source.file);
-  if (source.cut_by_choice && !file.has_periodic_section)
-    throw UserError("-mesh_periodic false has no effect: mesh '" + source.file +
-                    "' is not periodic; leave the option out");
-  mesh.checksum = file.checksum;
-  mesh_stages::distribute(comm, mesh_stages::load_whole(comm, source, std::move(file)), source.partitioner,
-                          mesh);
+  mesh_stages::Whole whole = mesh_stages::load_whole(comm, source);
+  mesh.checksum = whole.checksum;
+  mesh.notes = whole.notes;
+  mesh_stages::distribute(comm, std::move(whole), source.partitioner, mesh);
   return mesh;
 }
 

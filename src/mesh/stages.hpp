@@ -1,14 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "gmsh_file.hpp"
-#include "plain_mesh.hpp"
 #include "slipscale/base/petsc.hpp"
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/mesh/read.hpp"
+#include "soundness.hpp"
 
 /// The stages between a gmsh file and a `Mesh`.
 namespace slipscale::mesh_stages {
@@ -16,6 +16,7 @@ namespace slipscale::mesh_stages {
 /// The whole mesh and what must be known of it before it is cut.
 struct Whole {
   PlainMesh plain;                   ///< on rank 0
+  Rows around;                       ///< on rank 0: the cells around each vertex
   std::vector<Region> regions;       ///< complete on every rank
   std::vector<Boundary> boundaries;  ///< likewise, without edges and nodes
   std::array<bool, 2> periodic{};
@@ -23,27 +24,19 @@ struct Whole {
   double shortest_edge = 0;
   std::vector<PetscInt> node_number, cell_number;  ///< rank 0: whole-mesh number of each vertex and cell
   PetscInt node_count = 0, cell_count = 0;
+  std::uint64_t checksum = 0;
+  std::vector<std::string> notes;  ///< what was made of the file, for the user to see
 };
 
 /// Reads, refines, checks and measures the mesh. Collective; throws UserError.
-Whole load_whole(MPI_Comm comm, const MeshSource& source, GmshFile&& file);
+Whole load_whole(MPI_Comm comm, const MeshSource& source);
 
-/// Fewer than three cells across a period make two edges with the same ends, which are one to a DMPlex. The
-/// sentence about it, or nothing. Rank 0, before the mesh is refined.
-std::string fault_in_torus(const PlainMesh& mesh, const MeshSource& source);
-std::string too_narrow(const MeshSource& source, const Vector2& place);
+/// Fewer than three cells across a period make two edges with the same ends, which are one to whoever knows
+/// an edge by its ends. Throws GmshFault. Rank 0, before the mesh is refined.
+void check_torus(const PlainMesh& mesh);
 
-/// Checks and measures the mesh on rank 0; returns the sentence about what is wrong with it, or nothing.
-std::string survey(const MeshSource& source, Whole& whole);
-
-/// The cells around each vertex, or any other lists of numbers, as compressed rows.
-struct Rows {
-  std::vector<PetscInt> start, entries;
-  std::span<const PetscInt> operator[](PetscInt row) const {
-    return {entries.data() + start[row], entries.data() + start[row + 1]};
-  }
-};
-Rows cells_around(const std::vector<CellVertices>& cells, PetscInt vertices);
+/// Checks cells and groups and measures them. Throws GmshFault. Rank 0.
+void survey(Whole& whole);
 
 /// Numbers the nodes (reverse Cuthill-McKee) and the cells (by their lowest nodes). Rank 0.
 void number_whole(Whole& whole);

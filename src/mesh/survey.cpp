@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "gmsh_fault.hpp"
 #include "slipscale/base/print.hpp"
 #include "stages.hpp"
 
@@ -20,14 +21,13 @@ Vector2 centre(const CellGeometry& cell) {
 /// What is measured on rank 0 and told to all.
 class Survey {
  public:
-  Survey(const MeshSource& source, Whole& whole) : source_(source), whole_(whole), mesh_(whole.plain) {}
+  explicit Survey(Whole& whole) : whole_(whole), mesh_(whole.plain) {}
 
-  std::string run() {
+  void run() {
     regions();
-    if (fault_.empty()) cells();
-    if (fault_.empty()) boundaries();
+    cells();
+    boundaries();
     for (int axis = 0; axis < 2; ++axis) whole_.periodic[axis] = shifts_[axis] > 0.5 * whole_.shortest_edge;
-    return fault_;
   }
 
  private:
@@ -37,19 +37,16 @@ class Survey {
       Region& region = whole_.regions[r];
       for (const PetscInt cell : mesh_.region_cells[r]) {
         int& known = region_of_[cell];
-        if (known >= 0) {
-          fault_ = "mesh '" + source_.file + "': cell at " + at(centre(mesh_.cell(cell))) +
-                   " belongs to both regions '" + whole_.regions[known].name + "' and '" + region.name +
-                   "'; leave it in one physical surface";
-          return;
-        }
+        if (known >= 0)
+          throw GmshFault(": cell at " + at(centre(mesh_.cell(cell))) + " belongs to both regions '" +
+                          whole_.regions[known].name + "' and '" + region.name +
+                          "'; leave it in one physical surface");
         known = static_cast<int>(r);
         ++region.cells;
       }
-      if (region.cells > 0) continue;
-      fault_ = "mesh '" + source_.file + "': region '" + region.name +
-               "' holds no cell; remove this physical surface or mesh it";
-      return;
+      if (region.cells == 0)
+        throw GmshFault(": region '" + region.name +
+                        "' holds no cell; remove this physical surface or mesh it");
     }
   }
 
@@ -59,14 +56,10 @@ class Survey {
     whole_.shortest_edge = std::numeric_limits<double>::max();
     whole_.cell_count = static_cast<PetscInt>(mesh_.cells.size());
     whole_.node_count = static_cast<PetscInt>(mesh_.position.size());
-    std::vector<char> seen(mesh_.position.size(), 0);
-    for (PetscInt cell = 0; cell < whole_.cell_count && fault_.empty(); ++cell) check(cell, seen);
-    if (fault_.empty() && std::ranges::find(seen, 0) != seen.end())
-      fault_ = "mesh '" + source_.file +
-               "' has nodes that belong to no cell; save only the physical groups that are meshed";
+    for (PetscInt cell = 0; cell < whole_.cell_count; ++cell) check(cell);
   }
 
-  void check(PetscInt cell, std::vector<char>& seen) {
+  void check(PetscInt cell) {
     const CellGeometry shape = mesh_.cell(cell);
     const std::size_t n = shape.size();
     double longest = 0;
@@ -76,7 +69,6 @@ class Survey {
       longest = std::max(longest, edge);
       whole_.shortest_edge = std::min(whole_.shortest_edge, edge);
       const Vector2& home = mesh_.position[shape.vertices[k]];
-      seen[shape.vertices[k]] = 1;
       for (int axis = 0; axis < 2; ++axis) {
         whole_.lower[axis] = std::min(whole_.lower[axis], a[axis]);
         whole_.upper[axis] = std::max(whole_.upper[axis], a[axis]);
@@ -86,17 +78,16 @@ class Survey {
     // Relative to its longest edge, so that a mesh in millimetres or metres is judged alike.
     const double smallest = shape.smallest_corner();
     if (!(smallest > 1e-9 * longest * longest))  // not a number counts as well
-      fault_ = "mesh '" + source_.file + "': the cell at " + at(centre(shape)) +
-               (smallest < 0 ? " is inverted (its corners do not run counter-clockwise, or it is not convex)"
-                             : " is degenerate (it has next to no area)") +
-               "; mend the mesh, or reverse the surface's orientation";
-    else if (region_of_[cell] < 0)
-      fault_ =
-          "mesh '" + source_.file + "': the cell at " + at(centre(shape)) +
-          " belongs to no region; put its surface in a Physical Surface (known: " + names(whole_.regions) +
-          ")";
-    else
-      whole_.regions[region_of_[cell]].area += shape.area();
+      throw GmshFault(": the cell at " + at(centre(shape)) +
+                      (smallest < 0
+                           ? " is inverted (its corners do not run counter-clockwise, or it is not convex)"
+                           : " is degenerate (it has next to no area)") +
+                      "; mend the mesh");
+    if (region_of_[cell] < 0)
+      throw GmshFault(": the cell at " + at(centre(shape)) +
+                      " belongs to no region; put its surface in a Physical Surface (known: " +
+                      names(whole_.regions) + ")");
+    whole_.regions[region_of_[cell]].area += shape.area();
   }
 
   void boundaries() {
@@ -105,11 +96,9 @@ class Survey {
       const BoundarySides& found = mesh_.boundaries[b];
       boundary.interior = found.interior;
       boundary.edge_count = static_cast<PetscInt>(found.sides.size());
-      if (found.sides.empty()) {
-        fault_ = "mesh '" + source_.file + "': boundary '" + boundary.name +
-                 "' holds no edge; remove this physical curve or mesh it";
-        return;
-      }
+      if (found.sides.empty())
+        throw GmshFault(": boundary '" + boundary.name +
+                        "' holds no edge; remove this physical curve or mesh it");
       Vector2 sum{};
       for (const CellSide& side : found.sides) {
         const Vector2 outward = mesh_.cell(side.cell).outward(side.corner);
@@ -128,16 +117,14 @@ class Survey {
     return list;
   }
 
-  const MeshSource& source_;
   Whole& whole_;
   const PlainMesh& mesh_;
-  std::string fault_;
   std::vector<int> region_of_;  ///< by cell
   Vector2 shifts_{};  ///< largest distance between a corner and its vertex: the period, where there is one
 };
 
 }  // namespace
 
-std::string survey(const MeshSource& source, Whole& whole) { return Survey(source, whole).run(); }
+void survey(Whole& whole) { Survey(whole).run(); }
 
 }  // namespace slipscale::mesh_stages

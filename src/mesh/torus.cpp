@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gmsh_fault.hpp"
 #include "slipscale/base/print.hpp"
 #include "stages.hpp"
 
@@ -36,15 +37,15 @@ std::vector<char> near_seam(const PlainMesh& mesh) {
   return near;
 }
 
-}  // namespace
-
-std::string too_narrow(const MeshSource& source, const Vector2& place) {
-  return "mesh '" + source.file + "' has fewer than three cells across a period near " +
-         format("({:g}, {:g}) m", place[0], place[1]) + "; mesh it finer";
+[[noreturn]] void too_narrow(const Vector2& place) {
+  throw GmshFault(format("has fewer than three cells across a period near ({:g}, {:g}) m; mesh it finer",
+                         place[0], place[1]));
 }
 
-std::string fault_in_torus(const PlainMesh& mesh, const MeshSource& source) {
-  if (!mesh.is_torus()) return "";
+}  // namespace
+
+void check_torus(const PlainMesh& mesh) {
+  if (!mesh.is_torus()) return;
   const std::vector<char> near = near_seam(mesh);
   std::vector<Link> links;
   for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
@@ -54,7 +55,7 @@ std::string fault_in_torus(const PlainMesh& mesh, const MeshSource& source) {
     const double size = std::sqrt(std::abs(cell.area()));
     for (std::size_t a = 0; a < cell.size(); ++a)
       for (std::size_t b = a + 1; b < cell.size(); ++b) {
-        if (cell.vertices[a] == cell.vertices[b]) return too_narrow(source, cell.corners[a]);
+        if (cell.vertices[a] == cell.vertices[b]) too_narrow(cell.corners[a]);
         if (near[cell.vertices[a]] && near[cell.vertices[b]]) links.push_back(link(cell, a, b, size));
       }
   }
@@ -65,9 +66,8 @@ std::string fault_in_torus(const PlainMesh& mesh, const MeshSource& source) {
     const Link &one = links[k - 1], &two = links[k];
     if (one.vertices == two.vertices &&
         std::hypot(one.way[0] - two.way[0], one.way[1] - two.way[1]) > 0.5 * two.size)
-      return too_narrow(source, two.place);
+      too_narrow(two.place);
   }
-  return "";
 }
 
 }  // namespace slipscale::mesh_stages

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "compose_fitted.hpp"
 #include "mend.hpp"
 #include "sides.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/morphology/drawing.hpp"
+#include "slipscale/morphology/grid_file.hpp"
 #include "slipscale/morphology/smooth.hpp"
 
 namespace slipscale {
@@ -49,21 +51,16 @@ bool good_enough(const MeshQuality& quality, double allowed) {
       x[0], x[1], angle(worst) * 180 / std::numbers::pi, recipe.mesh.worst_angle * 180 / std::numbers::pi));
 }
 
-void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, std::size_t inclusions,
-                 GmshModel& gmsh, Composed& composed) {
+void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, GmshModel& gmsh,
+                 Composed& composed) {
   gmsh.mesh(draw(composed.block, pieces), region_names(recipe), recipe.room, recipe.mesh);
   composed.mesh = gmsh.read();
   gmsh.move(composed.mesh, smooth(composed.mesh, smoothed_below));
   composed.quality = quality(composed.mesh);
-  composed.drawn_area.assign(inclusions, 0);
 }
 
 void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
-  const int columns =
-                std::max(1, static_cast<int>(std::lround(composed.block.width() / recipe.mesh.size.bulk))),
-            rows =
-                std::max(1, static_cast<int>(std::lround(composed.block.height() / recipe.mesh.size.bulk)));
-  composed.grid = {columns, rows};
+  const auto [columns, rows] = composed.grid = grid_cells(recipe, composed.block);
   gmsh.mesh_grid(composed.block, recipe.room.periodic, columns, rows, recipe.mesh.cell, {"matrix"}, {});
   composed.mesh = gmsh.read();
   composed.quality = quality(composed.mesh);
@@ -81,7 +78,9 @@ void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
           recipe.image.file, across, axis == 0 ? "columns" : "rows", recipe.room.periodic[1] ? "xy" : "x"));
   composed.block.upper = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
   composed.grid = {picture.columns, picture.rows};
-  const std::vector<int> region = regions_of(picture, recipe.image);
+  std::vector<int> region = regions_of(picture, recipe.image);
+  composed.coloured = picture.coloured;
+  composed.despeckled = despeckle(region, picture.columns, picture.rows, recipe.room.periodic, recipe.image.despeckle);
   for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)
     if (std::ranges::count(region, static_cast<int>(k)) == 0)
       throw UserError("no pixel of -image_file '" + recipe.image.file + "' has the grey of region '" +
@@ -93,10 +92,12 @@ void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
 }
 
 void compose_laminate(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
+  if (recipe.mesh.cell == CellShape::grid) return fit_layers(recipe, region_names(recipe), composed);
   const std::vector<Piece> pieces = layers(recipe.laminate, recipe.room, recipe.mesh.size.interface);
   int layers_drawn = 0;
   for (const Piece& piece : pieces) layers_drawn = std::max(layers_drawn, piece.inclusion + 1);
-  mesh_pieces(recipe, pieces, static_cast<std::size_t>(layers_drawn), gmsh, composed);
+  mesh_pieces(recipe, pieces, gmsh, composed);
+  composed.drawn_area.assign(static_cast<std::size_t>(layers_drawn), 0);
   for (const Piece& piece : pieces) {
     std::vector<Vector2> corners;
     for (const Vertex& corner : piece.corners) corners.push_back(corner.x);
@@ -113,8 +114,11 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
   std::vector<Vector2> drawn;
   for (const Inclusion& inclusion : placement.inclusions) drawn.push_back(inclusion.centre);
   for (int round = 0;; ++round) {
-    mesh_pieces(recipe, polygons(placement.inclusions, recipe.room, recipe.mesh.size.interface),
-                placement.inclusions.size(), gmsh, composed);
+    if (recipe.mesh.cell == CellShape::grid)
+      fit_inclusions(recipe, region_names(recipe), composed);
+    else
+      mesh_pieces(recipe, polygons(placement.inclusions, recipe.room, recipe.mesh.size.interface), gmsh,
+                  composed);
     if (good_enough(composed.quality, recipe.mesh.worst_angle) || round == repairs) break;
     const Mending mending =
         mend(placement.inclusions, drawn, recipe.room, composed.mesh, recipe.mesh.worst_angle, recipe.repair,
@@ -125,6 +129,7 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
     composed.dropped += mending.dropped;
   }
   std::ranges::fill(placement.fraction, 0.0);
+  composed.drawn_area.assign(placement.inclusions.size(), 0);
   for (std::size_t k = 0; k < placement.inclusions.size(); ++k) {
     const Inclusion& inclusion = placement.inclusions[k];
     composed.drawn_area[k] = morphology::area_in_block(inclusion, recipe.room);
@@ -143,10 +148,12 @@ Composed compose(const Recipe& recipe, GmshModel& gmsh) {
                     (recipe.mesh.size.bulk * recipe.mesh.size.bulk));
   switch (recipe.composite) {
     case Composite::homogeneous:
-      if (recipe.mesh.structured)
+      if (recipe.mesh.cell == CellShape::grid)
+        fit_inclusions(recipe, region_names(recipe), composed);
+      else if (recipe.mesh.structured)
         compose_grid(recipe, gmsh, composed);
       else
-        mesh_pieces(recipe, {}, 0, gmsh, composed);
+        mesh_pieces(recipe, {}, gmsh, composed);
       break;
     case Composite::laminate:
       compose_laminate(recipe, gmsh, composed);
@@ -161,6 +168,13 @@ Composed compose(const Recipe& recipe, GmshModel& gmsh) {
   }
   if (!good_enough(composed.quality, recipe.mesh.worst_angle)) refuse_bad_cells(recipe, composed);
   return composed;
+}
+
+void write_mesh(const Recipe& recipe, const Composed& composed, const GmshModel& gmsh, const std::string& path) {
+  if (recipe.mesh.cell == CellShape::grid)
+    write_grid_msh(composed.mesh, composed.block, composed.grid, recipe.room.periodic, path);
+  else
+    gmsh.write(path);
 }
 
 }  // namespace slipscale

@@ -302,6 +302,7 @@ void GmshModel::move(const CompositeMesh& mesh, const std::vector<int>& nodes) {
 
 void GmshModel::write(const std::string& path) const {
   in_gmsh([&] { gmsh::write(path); });
+  refuse_cut_short(path);
   sort_periodic_pairs(path);
 }
 

@@ -1,12 +1,12 @@
 #include "slipscale/morphology/grey_image.hpp"
 
-#include <png.h>
-
 #include <algorithm>
-#include <cstring>
+#include <filesystem>
 #include <fstream>
 
+#include "png_file.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
 
 namespace slipscale {
 namespace {
@@ -15,20 +15,46 @@ namespace {
   throw UserError("-image_file '" + path + "' " + why + "; give a PNG or PGM picture");
 }
 
-GreyPicture read_png(const std::string& path) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_file(&image, path.c_str()))
-    refuse(path, std::string("cannot be read: ") + image.message);
-  // 16-bit values are linear in light; grey levels of a micrograph are those of the file.
-  image.format = PNG_FORMAT_GRAY;
-  std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
-  const png_color white{255, 255, 255};
-  if (!png_image_finish_read(&image, &white, bytes.data(), 0, nullptr))
-    refuse(path, std::string("cannot be read: ") + image.message);
-  GreyPicture picture{static_cast<int>(image.width), static_cast<int>(image.height), {}};
-  for (const png_byte byte : bytes) picture.grey.push_back(byte / 255.0);
+void refuse_too_large(const std::string& path, double columns, double rows) {
+  if (columns * rows > most_pixels)
+    throw UserError("-image_file '" + path + format("' has {:.0f} x {:.0f} pixels, more than the {:.0e} that are "
+                                                    "meshed; cut out a part, or scale it down",
+                                                    columns, rows, most_pixels));
+}
+
+GreyPicture grey_of(const std::string& path, const PngPixels& pixels) {
+  const bool coloured = pixels.channels > 2, alpha = pixels.channels % 2 == 0, wide = pixels.bits == 16;
+  const double white = wide ? 65535 : 255;
+  const std::size_t count = static_cast<std::size_t>(pixels.columns) * pixels.rows;
+  GreyPicture picture{pixels.columns, pixels.rows, std::vector<double>(count), coloured};
+  std::size_t transparent = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto sample = [&](int channel) -> double {
+      const std::size_t at = k * static_cast<std::size_t>(pixels.channels) + static_cast<std::size_t>(channel);
+      return wide ? pixels.bytes[2 * at] * 256 + pixels.bytes[2 * at + 1] : pixels.bytes[at];
+    };
+    transparent += alpha && sample(pixels.channels - 1) < white;
+    // Thousandths, so that equal channels give their own value.
+    picture.grey[k] =
+        coloured ? (299 * sample(0) + 587 * sample(1) + 114 * sample(2)) / (1000 * white) : sample(0) / white;
+  }
+  if (transparent > 0)
+    throw UserError("-image_file '" + path + format("' has {} transparent pixels, which have no grey level; fill "
+                                                    "them, for example by convert {} -background black -flatten "
+                                                    "filled.png",
+                                                    transparent, path));
   return picture;
+}
+
+GreyPicture read_png(const std::string& path) {
+  PngPixels pixels;
+  try {
+    pixels = read_png_pixels(path, most_pixels);
+  } catch (const std::runtime_error& error) {
+    refuse(path, std::string("cannot be read: ") + error.what());
+  }
+  refuse_too_large(path, pixels.columns, pixels.rows);
+  return grey_of(path, pixels);
 }
 
 /// The next number of a PGM header; comments run from # to the end of the line.
@@ -46,10 +72,15 @@ GreyPicture read_pgm(const std::string& path, bool raw) {
   picture.columns = header_number(file);
   picture.rows = header_number(file);
   const int white = header_number(file);
-  if (!file || picture.columns < 1 || picture.rows < 1 || white < 1 || white > 65535 ||
-      static_cast<double>(picture.columns) * picture.rows > 1e9)
+  if (!file || picture.columns < 1 || picture.rows < 1 || white < 1 || white > 65535)
     refuse(path, "has a header that makes no sense");
+  refuse_too_large(path, picture.columns, picture.rows);
   file.get();
+  // Seen before memory is taken: a plain sample is a digit and a blank at least.
+  const double smallest = static_cast<double>(picture.columns) * picture.rows * (raw && white < 256 ? 1 : 2) - !raw;
+  std::error_code code;
+  if (static_cast<double>(std::filesystem::file_size(path, code)) - static_cast<double>(file.tellg()) < smallest)
+    refuse(path, "ends early or holds a value beyond its white");
   picture.grey.resize(static_cast<std::size_t>(picture.columns) * picture.rows);
   for (double& grey : picture.grey) {
     int value = 0;
@@ -86,16 +117,6 @@ std::vector<int> regions_of(const GreyPicture& picture, const GreyImage& image) 
           static_cast<int>(std::ranges::upper_bound(image.levels, grey) - image.levels.begin()));
     }
   return regions;
-}
-
-void write_png(const std::string& path, int columns, int rows, const std::vector<std::uint8_t>& rgb) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(columns);
-  image.height = static_cast<png_uint_32>(rows);
-  image.format = PNG_FORMAT_RGB;
-  if (!png_image_write_to_file(&image, path.c_str(), 0, rgb.data(), 0, nullptr))
-    throw LibraryError("libpng cannot write '" + path + "': " + image.message);
 }
 
 }  // namespace slipscale

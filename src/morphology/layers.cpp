@@ -78,14 +78,8 @@ void match_sides(std::vector<Piece>& pieces, const Room& room) {
   }
 }
 
-}  // namespace
-
-std::vector<Piece> layers(const Laminate& laminate, const Room& room, double clearance) {
-  Vector2 n{-std::sin(laminate.angle), std::cos(laminate.angle)};
-  for (double& component : n)  // a quarter turn is one exactly
-    if (std::abs(component - std::round(component)) < 1e-14) component = std::round(component);
-  refuse_misfit(laminate, room, n);
-  const Box& block = room.block;
+/// So that one lies in the middle of the block, or else as far from its corners as can be.
+double origin_of(const Laminate& laminate, const Box& block, const Vector2& n, double clearance) {
   const double middle =
       0.5 * (n[0] * (block.lower[0] + block.upper[0]) + n[1] * (block.lower[1] + block.upper[1]));
   double origin = middle;  // centre line of a layer of inclusion
@@ -94,18 +88,37 @@ std::vector<Piece> layers(const Laminate& laminate, const Room& room, double cle
       if (const double shifted = middle + i * laminate.period / 64;
           nearness(laminate, block, n, shifted) > nearness(laminate, block, n, origin))
         origin = shifted;
+  return origin;
+}
+
+}  // namespace
+
+LayerStack stack(const Laminate& laminate, const Room& room, double clearance) {
+  LayerStack stack{{-std::sin(laminate.angle), std::cos(laminate.angle)}, {}};
+  Vector2& n = stack.normal;
+  for (double& component : n)  // a quarter turn is one exactly
+    if (std::abs(component - std::round(component)) < 1e-14) component = std::round(component);
+  refuse_misfit(laminate, room, n);
+  const double origin = origin_of(laminate, room.block, n, clearance);
   double from = 0, to = 0;
-  for (const Vertex& corner : rectangle(block)) {
+  for (const Vertex& corner : rectangle(room.block)) {
     const double at = (n[0] * corner.x[0] + n[1] * corner.x[1] - origin) / laminate.period;
     from = std::min(from, std::floor(at));
     to = std::max(to, std::ceil(at));
   }
+  for (double k = from; k <= to; ++k)
+    stack.layers.push_back({static_cast<int>(k - from), origin + (k - 0.5 * laminate.fraction) * laminate.period,
+                            origin + (k + 0.5 * laminate.fraction) * laminate.period});
+  return stack;
+}
+
+std::vector<Piece> layers(const Laminate& laminate, const Room& room, double clearance) {
+  const LayerStack drawn = stack(laminate, room, clearance);
+  const Vector2& n = drawn.normal;
   std::vector<Piece> pieces;
-  for (double k = from; k <= to; ++k) {
-    const double low = origin + (k - 0.5 * laminate.fraction) * laminate.period,
-                 high = origin + (k + 0.5 * laminate.fraction) * laminate.period;
-    const auto corners = half(half(rectangle(block), n, high), {-n[0], -n[1]}, -low);
-    if (corners.size() >= 3) pieces.push_back({corners, static_cast<int>(k - from), 1});
+  for (const LayerStack::Layer& layer : drawn.layers) {
+    const auto corners = half(half(rectangle(room.block), n, layer.high), {-n[0], -n[1]}, -layer.low);
+    if (corners.size() >= 3) pieces.push_back({corners, layer.number, 1});
   }
   match_sides(pieces, room);
   return pieces;

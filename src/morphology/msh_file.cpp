@@ -1,8 +1,11 @@
 #include "msh_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "slipscale/base/error.hpp"
@@ -43,9 +46,49 @@ void sort_periodic_pairs(const std::string& path) {
   const auto begin = in.tellg();
   const std::string sorted = sorted_links(in);
   in.close();
+  errno = 0;
   std::filesystem::resize_file(path, static_cast<std::uintmax_t>(begin));
   std::ofstream out(path, std::ios::app);
-  if (!(out << sorted << std::flush)) throw LibraryError("cannot write '" + path + "'");
+  if (!(out << sorted << std::flush)) refuse_unwritten(path);
+}
+
+namespace {
+
+/// Lines between the section's first, which was read, and its end.
+long lines_of_section(std::istream& in, const std::string& end) {
+  long count = 0;
+  for (std::string line; std::getline(in, line); ++count)
+    if (line == end) return count;
+  return -1;
+}
+
+}  // namespace
+
+void refuse_cut_short(const std::string& path) {
+  std::ifstream in(path);
+  int sections = 0;
+  for (std::string line; std::getline(in, line);) {
+    const bool nodes = line == "$Nodes";
+    if (!nodes && line != "$Elements") continue;
+    ++sections;
+    long blocks = 0, total = 0;
+    if (!std::getline(in, line)) break;
+    std::istringstream(line) >> blocks >> total;
+    // Nodes have a line for the number and one for the place.
+    if (lines_of_section(in, nodes ? "$EndNodes" : "$EndElements") != blocks + (nodes ? 2 : 1) * total)
+      refuse_unwritten(path);
+  }
+  if (sections != 2) refuse_unwritten(path);
+}
+
+void refuse_unwritten(const std::string& path) {
+  const std::filesystem::path file(path);
+  std::error_code code;
+  const auto room = std::filesystem::space(file.parent_path(), code);
+  const bool full = !code && room.available < 64 * 1024;
+  throw UserError("-output_folder '" + file.parent_path().string() + "' cannot take the files: " +
+                  (full || errno == 0 ? std::string("the disk is full") : std::string(std::strerror(errno))) +
+                  "; free some space, or name another folder");
 }
 
 }  // namespace slipscale

@@ -88,10 +88,14 @@ MeshSize read_size(const Options& options, bool has_interface) {
 void read_mesh_choice(const Options& options, Recipe& recipe) {
   MeshChoice& mesh = recipe.mesh;
   const bool homogeneous = recipe.composite == Composite::homogeneous;
-  if (homogeneous) mesh.structured = options.flag("structured");
-  mesh.cell = chosen<CellShape>(
-      options.text("cell"), {{"triangle", CellShape::triangle}, {"quadrilateral", CellShape::quadrilateral}});
-  if (mesh.structured)
+  if (options.text("cell") == "grid")
+    morphology::refuse_idle_with_grid(options);
+  else if (homogeneous)
+    mesh.structured = options.flag("structured");
+  mesh.cell = chosen<CellShape>(options.text("cell"), {{"triangle", CellShape::triangle},
+                                                       {"quadrilateral", CellShape::quadrilateral},
+                                                       {"grid", CellShape::grid}});
+  if (mesh.structured || mesh.cell == CellShape::grid)
     mesh.size.bulk = mesh.size.interface = mesh.size.surface = options.real("size");
   else
     mesh.size = read_size(options, !homogeneous);
@@ -128,7 +132,8 @@ void read_laminate(const Options& options, Recipe& recipe) {
 
 void read_image(const Options& options, Recipe& recipe) {
   GreyImage& image = recipe.image;
-  image = {options.text("image_file"), options.reals("image_levels"), {}, options.real("image_pixel")};
+  image = {options.text("image_file"), options.reals("image_levels"), {}, options.real("image_pixel"),
+           options.integer("image_despeckle")};
   for (std::size_t k = 1; k < image.levels.size(); ++k)
     if (image.levels[k] <= image.levels[k - 1])
       throw UserError("-image_levels must ascend, but " + format("{:g}", image.levels[k]) + " follows " +

@@ -1,9 +1,6 @@
 #include "recipe_checks.hpp"
 
-#include <petscsys.h>
-
 #include <cmath>
-#include <sstream>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -62,13 +59,9 @@ double thinnest(const Recipe& recipe) {
 }  // namespace
 
 std::set<std::string> read_family_names(Options& options) {
-  char* all = nullptr;
-  petsc(PetscOptionsGetAll(nullptr, &all));
-  std::istringstream words(all);
-  petsc(PetscFree(all));
   std::set<std::string> typed, names, count, taken{"matrix"};
-  for (std::string word; words >> word;)
-    if (word.starts_with(prefix)) typed.insert(word);
+  for (const std::string& name : options.typed())
+    if (name.starts_with(prefix.substr(1))) typed.insert("-" + name);
   for (const std::string& word : typed) {
     const std::string family = family_in(word);
     if (family.empty())

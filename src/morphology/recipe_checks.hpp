@@ -18,6 +18,9 @@ void refuse_region_name(const std::string& name, const std::string& where, std::
 /// Options that have no effect with what is drawn.
 void refuse_idle_with(const Options& options, Composite composite, const std::set<std::string>& families);
 
+/// Options that have no effect with -cell grid.
+void refuse_idle_with_grid(const Options& options);
+
 /// Options of one kind of inclusion that have no effect with its shape or in an array.
 void refuse_idle_inclusion(const Options& options, const std::string& prefix, Shape shape, bool in_array);
 

@@ -9,7 +9,7 @@ using Names = std::vector<std::string>;
 const Names of_inclusions{"diameter", "diameter_deviation", "diameter_distribution",
                           "aspect",   "rounding",           "angle_deviation"},
     of_placement{"arrangement", "columns", "rows", "seed", "gap", "clearance", "edge", "keep_out", "repair"},
-    of_laminate{"layer_period"}, of_image{"image_file", "image_levels", "image_regions", "image_pixel"},
+    of_laminate{"layer_period"}, of_image{"image_file", "image_levels", "image_regions", "image_pixel", "image_despeckle"},
     of_inclusions_and_layers{"fraction", "angle"}, of_interfaces{"size_interface"},
     of_free_mesh{"size_surface", "size_growth", "worst_angle"},
     of_size{"block_width", "block_height", "size", "cell"}, of_rows{"structured"};
@@ -58,6 +58,11 @@ void refuse_idle_with(const Options& options, Composite composite, const std::se
   if (options.text("periodic") == "xy")
     options.refuse_idle({"edge", "keep_out"},
                         {"with -periodic xy, which leaves no side", "give -periodic x", {"periodic"}});
+}
+
+void refuse_idle_with_grid(const Options& options) {
+  options.refuse_idle({"size_interface", "size_surface", "size_growth", "structured"},
+                      {"with -cell grid, whose squares are equal", "give -cell triangle", {"cell"}});
 }
 
 void refuse_idle_inclusion(const Options& options, const std::string& prefix, Shape shape, bool in_array) {

@@ -6,7 +6,8 @@ namespace {
 const Range shapes = range::one_of({"disc", "ellipse", "rectangle"});
 const Range below_45{"at least 0 and below 45", [](double x) { return x >= 0 && x < 45; }};
 const Range below_one{"above 0 and below 1", [](double x) { return x > 0 && x < 1; }};
-const Range count{"at least 1", [](double x) { return x >= 1; }};
+const Range count{"from 1 to 2147483647", [](double x) { return x >= 1; }};
+const Range natural{"from 0 to 2147483647", [](double x) { return x >= 0; }};
 const Range grey{"above 0 and at most 1", [](double x) { return x > 0 && x <= 1; }};
 
 Schema block_schema() {
@@ -59,7 +60,7 @@ Schema placement_schema() {
        "where inclusions lie; an array takes columns, rows, and the fraction or the diameter"},
       {"columns", Kind::integer, "1", required, count, "of an array, along x"},
       {"rows", Kind::integer, "1", required, count, "of an array, along y"},
-      {"seed", Kind::integer, "1", "1", range::non_negative,
+      {"seed", Kind::integer, "1", "1", natural,
        "of random placement: another seed, another morphology"},
       {"gap", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
        "smallest distance between inclusions; auto: the edge length at interfaces"},
@@ -78,7 +79,12 @@ Schema placement_schema() {
        "at interfaces"},
       {"layer_period", Kind::real, "m", required, range::positive,
        "thickness of one layer of matrix and one of inclusion, for the shape laminate"},
-      {"image_file", Kind::text, "", required, {}, "PNG or PGM whose pixels become quadrilaterals"},
+      {"image_file",
+       Kind::text,
+       "",
+       required,
+       {},
+       "PNG or PGM whose pixels become quadrilaterals; colours count by their luma .299 R + .587 G + .114 B"},
       {"image_levels", Kind::reals, "1", required, grey,
        "ascending grey levels, 0 black to 1 white, at which the next region begins"},
       {"image_regions",
@@ -88,6 +94,8 @@ Schema placement_schema() {
        {},
        "names from dark to bright, with commas; matrix and inclusion when there is one level"},
       {"image_pixel", Kind::real, "m", required, range::positive, "side of a pixel"},
+      {"image_despeckle", Kind::integer, "1", "0", natural,
+       "islands of one region with fewer pixels than this go to the region around them"},
   };
 }
 
@@ -100,8 +108,9 @@ Schema mesh_choice_schema() {
        "edge length at the bottom, the contact surface; auto: size"},
       {"size_growth", Kind::real, "1", "0.2", range::positive,
        "growth of the edge length per metre of distance from interface or surface"},
-      {"cell", Kind::text, "", "triangle", range::one_of({"triangle", "quadrilateral"}),
-       "quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells where the "
+      {"cell", Kind::text, "", "triangle", range::one_of({"triangle", "quadrilateral", "grid"}),
+       "'grid' is rows of squares fitted to the interfaces, those on them split in two triangles: the longest "
+       "time step; quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells where the "
        "triangles are more than 200 000)"},
       {"structured", Kind::flag, "", "false", {}, "rows and columns of equal cells; for the shape none"},
       {"worst_angle", Kind::real, "degree", "15", below_45,

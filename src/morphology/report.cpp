@@ -71,6 +71,21 @@ std::string placement_line(const Composed& composed) {
   return text + "\n";
 }
 
+double changed_part(const Composed& composed) {
+  return static_cast<double>(composed.despeckled) / composed.grid[0] / composed.grid[1];
+}
+
+std::string fit_line(const Composed& composed) {
+  std::string text = "fitted to the interfaces";
+  if (composed.relieved) text += format("; {} moves along sides and interfaces for a longer step", composed.relieved);
+  if (composed.squeezed)
+    text += format("; {} cells are narrower, between interfaces less than a cell apart", composed.squeezed);
+  if (composed.blunted)
+    text += format("; {} nodes on the sides bound wedges that are thinner than half a cell and left out",
+                   composed.blunted);
+  return text + "\n";
+}
+
 std::string histogram(const MeshQuality& quality) {
   std::string text = "cells by smallest angle:";
   for (std::size_t bin = 0; bin < quality.histogram.size(); ++bin)
@@ -92,6 +107,11 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
     text += format("{} columns and {} rows of cells, ", composed.grid[0], composed.grid[1]) +
             engineering(composed.block.width() / composed.grid[0], "m") + " x " +
             engineering(composed.block.height() / composed.grid[1], "m") + "\n";
+  if (composed.coloured) text += "the picture is coloured: its grey is the luma .299 R + .587 G + .114 B\n";
+  if (recipe.image.despeckle > 0)
+    text += format("-image_despeckle {} changed {} pixels, {:.3g} of the area\n", recipe.image.despeckle,
+                   composed.despeckled, changed_part(composed));
+  if (recipe.mesh.cell == CellShape::grid) text += fit_line(composed);
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
   if (!composed.drawn_area.empty())
@@ -133,6 +153,8 @@ std::string morphology_yaml(const std::map<std::string, std::string>& effective,
     }
     if (!composed.drawn_area.empty())
       yaml.number("area_error", area_error(composed), "largest, of an inclusion, meshed against drawn");
+    if (recipe.image.despeckle > 0)
+      yaml.exact("despeckled", changed_part(composed), "of the area, that went to another region");
     yaml.number("smallest_angle", quality.smallest_angle / degree, "degree");
     yaml.number("largest_angle", quality.largest_angle / degree, "degree");
     yaml.number("step_length", quality.step_length,

@@ -1,22 +1,28 @@
 #include "slipscale/record/fields_file.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/files/xdmf.hpp"
+#include "slipscale/record/stress_measures.hpp"
 
 namespace slipscale {
 namespace {
 
-std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities) {
+std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities, bool with_zz) {
   using enum XdmfAttribute::Centre;
   std::vector<XdmfAttribute> shown;
   if (quantities.u) shown.push_back({"u", node, "u", {3}});
   if (quantities.v) shown.push_back({"v", node, "v", {3}});
-  if (quantities.stress) shown.push_back({"stress", cell, "stress", {3}});
-  if (quantities.strain) shown.push_back({"strain", cell, "strain", {3}});
+  if (quantities.stress) shown.push_back({"stress", cell, "stress_tensor", {3, 3}});
+  for (const char* component : {"strain_xx", "strain_yy", "strain_xy"})
+    if (quantities.strain) shown.push_back({component, cell, component, {}});
+  if (quantities.von_mises && with_zz) shown.push_back({"von_mises", cell, "von_mises", {}});
+  for (const char* value : {"principal_high", "principal_low"})
+    if (quantities.principal) shown.push_back({value, cell, value, {}});
   shown.push_back(xdmf_region());
   return shown;
 }
@@ -25,19 +31,21 @@ std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities) {
 
 FieldQuantities field_quantities(const std::string& list, const std::string& option) {
   FieldQuantities quantities{false, false, false, false};
+  const std::pair<const char*, bool FieldQuantities::*> known[] = {
+      {"u", &FieldQuantities::u},
+      {"v", &FieldQuantities::v},
+      {"stress", &FieldQuantities::stress},
+      {"strain", &FieldQuantities::strain},
+      {"von_mises", &FieldQuantities::von_mises},
+      {"principal", &FieldQuantities::principal}};
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
-    if (word == "u")
-      quantities.u = true;
-    else if (word == "v")
-      quantities.v = true;
-    else if (word == "stress")
-      quantities.stress = true;
-    else if (word == "strain")
-      quantities.strain = true;
-    else
+    const auto found = std::find_if(std::begin(known), std::end(known),
+                                    [&](const auto& each) { return each.first == word; });
+    if (found == std::end(known))
       throw UserError("-" + option + " has '" + word +
-                      "'; give a list of u, v, stress and strain, like u,stress");
+                      "'; give a list of u, v, stress, strain, von_mises and principal, like u,stress");
+    quantities.*found->second = true;
   }
   return quantities;
 }
@@ -46,18 +54,19 @@ FieldsFile::FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folde
     : FieldsFile(comm, MeshImage(comm, mesh), folder, quantities) {}
 
 FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
-                       const std::string& name)
+                       const std::string& name, std::vector<double> transverse)
     : comm_(comm),
       quantities_(quantities),
       image_(std::move(image)),
+      transverse_(std::move(transverse)),
       file_(std::make_unique<SharedFile>(comm, folder + "/" + name + ".h5", bytes(0),
                                          SharedFile::Appearance::growing)),
       xdmf_path_(folder + "/" + name + ".xdmf") {
   const MeshLayout layout = write_mesh(comm, *file_, image_);
   file_->add_series({"/time", "s", "times of the frames"});
   file_->flush();
-  xdmf_ = std::make_unique<XdmfDocument>(
-      XdmfDocument{name + ".h5", "block", layout, attributes(quantities), std::vector<double>{}});
+  xdmf_ = std::make_unique<XdmfDocument>(XdmfDocument{
+      name + ".h5", "block", layout, attributes(quantities, !transverse_.empty()), std::vector<double>{}});
 }
 
 FieldsFile::~FieldsFile() = default;
@@ -72,14 +81,51 @@ void FieldsFile::write(double time, const double* u, const double* v, const doub
   file_->reserve(bytes(1));
   if (quantities_.u) write_nodal({frame + "u", "m", "displacement of the points; x, y and 0"}, u);
   if (quantities_.v) write_nodal({frame + "v", "m/s", "velocity of the points; x, y and 0"}, v);
-  if (quantities_.stress)
-    write_on_cells({frame + "stress", "Pa", "stress of the cells; xx, yy and xy"}, stress);
-  if (quantities_.strain)
-    write_on_cells({frame + "strain", "1", "strain of the cells; xx, yy and xy, engineering shear"}, strain);
+  if (quantities_.of_stress()) write_stress(frame, stress);
+  if (quantities_.strain) write_strain(frame, strain);
   file_->append("/time", time);
   file_->flush();
   xdmf_->times->push_back(time);
   write_xdmf(comm_, xdmf_path_, *xdmf_);
+}
+
+void FieldsFile::write_stress(const std::string& frame, const double* stress) {
+  const auto rows = static_cast<hsize_t>(image_.cells().total());
+  const auto at = [&](int cell) { return stress + 3 * static_cast<std::size_t>(cell); };
+  const auto zz = [&](int cell) { return transverse_[cell] * (at(cell)[0] + at(cell)[1]); };
+  const auto write = [&](const std::string& name, const std::string& text, const auto& value) {
+    slipscale::write_on_cells(*file_, image_, {frame + name, "Pa", text}, {},
+                              [&](int cell, double* row) { *row = value(cell); });
+  };
+  const bool with_zz = !transverse_.empty();
+  if (quantities_.stress) {
+    write_on_cells({frame + "stress", "Pa", "stress of the cells; xx, yy and xy"}, stress);
+    DatasetView view{{rows, 3, 3}, {}};
+    for (const auto& [to, component] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 2}, {3, 2}, {4, 1}})
+      view.entries.push_back({to, frame + "stress", {3}, component});
+    if (with_zz) {
+      write(
+          "stress_zz",
+          "stress across the plane, nu (xx + yy); NaN where a stiffness that is not isotropic does not tell",
+          zz);
+      view.entries.push_back({8, frame + "stress_zz", {}, 0});
+    }
+    file_->write_view({frame + "stress_tensor", "Pa", "the same as a tensor, zz included"}, view);
+  }
+  if (quantities_.von_mises && with_zz)
+    write("von_mises", "von Mises' equivalent stress of the cells",
+          [&](int cell) { return von_mises(at(cell), zz(cell)); });
+  if (!quantities_.principal) return;
+  write("principal_high", "larger principal stress in the plane",
+        [&](int cell) { return principal_stresses(at(cell))[0]; });
+  write("principal_low", "smaller principal stress in the plane",
+        [&](int cell) { return principal_stresses(at(cell))[1]; });
+}
+
+void FieldsFile::write_strain(const std::string& frame, const double* strain) {
+  write_on_cells({frame + "strain", "1", "strain of the cells; xx, yy and xy, engineering shear"}, strain);
+  (void)write_components(*file_, xdmf_->mesh, {frame + "strain", "1", "the strain, engineering shear"}, {3},
+                         {"xx", "yy", "xy"}, "strain");
 }
 
 /// The third component is for ParaView, whose warping wants vectors in space.
@@ -102,9 +148,11 @@ void FieldsFile::close() { file_->finish(); }
 double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
                     const FieldQuantities& quantities) {
   const double vector = 3 * sizeof(double);
+  const double of_cell =
+      (quantities.stress + quantities.strain) * vector +
+      (quantities.stress + quantities.von_mises + 2 * quantities.principal) * sizeof(double);
   const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
-                       (quantities.stress + quantities.strain) * vector * static_cast<double>(cells) +
-                       group_overhead;
+                       of_cell * static_cast<double>(cells) + group_overhead;
   return frames * frame + mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) +
          group_overhead;
 }

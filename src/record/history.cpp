@@ -1,9 +1,15 @@
 #include "slipscale/record/history.hpp"
 
 namespace slipscale {
+namespace {
 
-HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points)
-    : file_(path) {
+constexpr double between_batches = 0.5;  // s
+
+}  // namespace
+
+HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
+                         double rows)
+    : file_(path, between_batches, rows) {
   time_ = file_.add("/time", {}, "s", "time of the row, t_n = n times the step");
   step_ = file_.add("/step", {}, "1", "number of the step, n");
   for (const std::string& name : body.boundary_names()) {
@@ -67,37 +73,53 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
   file_.end_row();
 }
 
-ContactFile::ContactFile(const std::string& path, const Observer& observer)
-    : file_(path), length_(observer.tributary_length()) {
+ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows)
+    : file_(path, between_batches, rows), length_(observer.tributary_length()) {
   const hsize_t nodes = observer.contact_x().size();
   file_.constant("/x", observer.contact_x().data(), {nodes}, "m",
                  "where the contact nodes are in the undeformed body");
+  file_.constant("/y", observer.contact_y().data(), {nodes}, "m", "their heights in the undeformed body");
   file_.constant("/tributary_length", length_.data(), {nodes}, "m",
                  "length of the boundary that belongs to each node");
   time_ = file_.add("/time", {}, "s", "time of the row");
   u_ = file_.add("/u", {nodes, 2}, "m", "displacement");
+  v_y_ = file_.add("/v_y", {nodes}, "m/s", "velocity along +y");
+  gap_ = file_.add("/gap", {nodes}, "m", "height above the surface; 0 in contact to rounding");
   slip_rate_ =
       file_.add("/slip_rate", {nodes}, "m/s", "velocity of the surface relative to the node, along +x");
   normal_ = file_.add("/normal_traction", {nodes}, "Pa", "pressure, >= 0");
   tangential_ = file_.add("/tangential_traction", {nodes}, "Pa", "traction on the body along +x");
+  strength_ =
+      file_.add("/strength", {nodes}, "Pa",
+                "what the friction law remembers: the stored strength (regularised threshold), or the "
+                "tangential traction of the step; 0 where open");
   status_ = file_.add("/status", {nodes}, "1", "0 open, 1 stick, 2 slip", SeriesFile::Storage::byte);
 }
 
 void ContactFile::write(const Observation& seen, double surface_velocity) {
-  u_row_.clear(), slip_row_.clear(), normal_row_.clear(), tangential_row_.clear(), status_row_.clear();
+  for (auto* row :
+       {&u_row_, &v_y_row_, &gap_row_, &slip_row_, &normal_row_, &tangential_row_, &strength_row_})
+    row->clear();
+  status_row_.clear();
   for (std::size_t k = 0; k < seen.contact.size(); ++k) {
     const ContactReading& node = seen.contact[k];
     u_row_.insert(u_row_.end(), node.u.begin(), node.u.end());
-    slip_row_.push_back(surface_velocity - node.velocity);
+    v_y_row_.push_back(node.v[1]);
+    gap_row_.push_back(node.gap);
+    slip_row_.push_back(surface_velocity - node.v[0]);
     normal_row_.push_back(node.normal_force / length_[k]);
     tangential_row_.push_back(node.traction);
+    strength_row_.push_back(node.strength);
     status_row_.push_back(static_cast<std::uint8_t>(node.status));
   }
   file_.append(time_, seen.time);
   file_.append(u_, u_row_.data());
+  file_.append(v_y_, v_y_row_.data());
+  file_.append(gap_, gap_row_.data());
   file_.append(slip_rate_, slip_row_.data());
   file_.append(normal_, normal_row_.data());
   file_.append(tangential_, tangential_row_.data());
+  file_.append(strength_, strength_row_.data());
   file_.append(status_, status_row_.data());
   file_.end_row();
 }

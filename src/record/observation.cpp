@@ -16,6 +16,16 @@ std::vector<PetscInt> numbers_of(const Mesh& mesh, const std::vector<int>& nodes
 
 }  // namespace
 
+Directions directions_of(const Boundary& boundary) {
+  Vector2 normal = boundary.normal;
+  if (normal[0] == 0 && normal[1] == 0) normal = {0, 1};
+  Vector2 tangent{normal[1], -normal[0]};
+  constexpr double upright = 1e-6;  // rounding tilts a straight side by far less
+  if (tangent[0] < -upright || (std::abs(tangent[0]) <= upright && tangent[1] < 0))
+    tangent = {-tangent[0], -tangent[1]};
+  return {normal, tangent};
+}
+
 Observer::Observer(const SlidingBody& body) : body_(body) {
   const Mesh& mesh = body.model().mesh;
   const auto& nodes = body.boundary_nodes();
@@ -34,14 +44,16 @@ Observer::Observer(const SlidingBody& body) : body_(body) {
   contact_gather_ = OrderedGather(body.comm(), numbers_of(mesh, contact.node));
   std::vector<double> place;
   for (int k = 0; k < contact.size(); ++k)
-    place.insert(place.end(), {mesh.nodes.position[contact.node[k]][0], contact.tributary_length[k]});
-  const auto all = contact_gather_(place, 2);
-  along_x_.resize(all.size() / 2);
+    place.insert(place.end(), {mesh.nodes.position[contact.node[k]][0],
+                               mesh.nodes.position[contact.node[k]][1], contact.tributary_length[k]});
+  const auto all = contact_gather_(place, 3);
+  along_x_.resize(all.size() / 3);
   std::iota(along_x_.begin(), along_x_.end(), 0);
-  std::stable_sort(along_x_.begin(), along_x_.end(), [&](int a, int b) { return all[2 * a] < all[2 * b]; });
+  std::stable_sort(along_x_.begin(), along_x_.end(), [&](int a, int b) { return all[3 * a] < all[3 * b]; });
   for (int row : along_x_) {
-    contact_x_.push_back(all[2 * row]);
-    contact_length_.push_back(all[2 * row + 1]);
+    contact_x_.push_back(all[3 * row]);
+    contact_y_.push_back(all[3 * row + 1]);
+    contact_length_.push_back(all[3 * row + 2]);
   }
 }
 
@@ -66,12 +78,8 @@ void Observer::observe_boundaries(Observation& seen) const {
   for (std::size_t b = 0; b < members_.size(); ++b) {
     Vector2 sum{};
     for (int row : members_[b]) sum = {sum[0] + all[2 * row], sum[1] + all[2 * row + 1]};
-    Vector2 normal = body_.model().mesh.find_boundary(body_.boundary_names()[b])->normal;
-    if (normal[0] == 0 && normal[1] == 0) normal = {0, 1};
-    Vector2 tangent{normal[1], -normal[0]};
-    constexpr double upright = 1e-6;  // rounding tilts a straight side by far less
-    if (tangent[0] < -upright || (std::abs(tangent[0]) <= upright && tangent[1] < 0))
-      tangent = {-tangent[0], -tangent[1]};
+    const auto [normal, tangent] =
+        directions_of(*body_.model().mesh.find_boundary(body_.boundary_names()[b]));
     seen.boundaries.push_back(
         {sum[0] * normal[0] + sum[1] * normal[1], sum[0] * tangent[0] + sum[1] * tangent[1]});
   }
@@ -79,25 +87,31 @@ void Observer::observe_boundaries(Observation& seen) const {
 
 void Observer::observe_contact(Observation& seen) const {
   const ContactNodes& contact = body_.contact();
-  constexpr int width = 6;
+  constexpr int width = 9;
   std::vector<double> mine;
   for (int k = 0; k < contact.size(); ++k) {
-    const Vector2& u = body_.displacement_n()[contact.node[k]];
-    mine.insert(mine.end(), {u[0], u[1], body_.velocity_n()[contact.node[k]][0], contact.traction[k],
-                             contact.force[k][1], static_cast<double>(contact.status[k])});
+    const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity_n()[contact.node[k]];
+    mine.insert(mine.end(),
+                {u[0], u[1], v[0], v[1], contact.clearance[k] + u[1], contact.memory[k].traction,
+                 contact.traction[k], contact.force[k][1], static_cast<double>(contact.status[k])});
   }
   const auto all = contact_gather_(mine, width);
   const double surface = body_.surface_velocity();
   double total = 0;
   for (std::size_t k = 0; k < along_x_.size(); ++k) {
     const double *row = &all[static_cast<std::size_t>(along_x_[k]) * width], length = contact_length_[k];
-    const ContactReading reading{
-        {row[0], row[1]}, row[2], row[3], row[4], static_cast<ContactStatus>(row[5])};
+    const ContactReading reading{{row[0], row[1]},
+                                 {row[2], row[3]},
+                                 row[4],
+                                 row[5],
+                                 row[6],
+                                 row[7],
+                                 static_cast<ContactStatus>(row[8])};
     const double force = reading.traction * length;
     seen.surface.normal += reading.normal_force;
     seen.surface.tangential += force;
-    seen.power_into_body += force * reading.velocity;
-    seen.friction_heat += force * (surface - reading.velocity);
+    seen.power_into_body += force * reading.v[0];
+    seen.friction_heat += force * (surface - reading.v[0]);
     (reading.status == ContactStatus::open    ? seen.open
      : reading.status == ContactStatus::stick ? seen.stick
                                               : seen.slip) += length;

@@ -1,7 +1,9 @@
 #include "slipscale/record/record_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -20,6 +22,16 @@ std::optional<long> steps_or_auto(const Options& options, const std::string& nam
   if (steps != std::floor(steps) || steps > 1e15)
     throw UserError(format("-{} is {:g}, but it must be auto or a whole number of steps", name, steps));
   return static_cast<long>(steps);
+}
+
+/// -<what>_every, which may have a default, or -<what>_interval.
+Cadence read_cadence(const Options& options, const std::string& what,
+                     const std::function<std::optional<long>(const std::string&)>& every) {
+  Cadence cadence{{}, {}, what + "_interval"};
+  options.refuse_both(what + "_every", cadence.option);
+  cadence.interval = options.find_real(cadence.option);
+  if (!cadence.interval) cadence.every = every(what + "_every");
+  return cadence;
 }
 
 std::vector<Vector2> read_points(const Options& options) {
@@ -46,15 +58,18 @@ std::optional<Box> read_box(const Options& options) {
 
 void read_fields(const Options& options, RecordChoice& choice) {
   options.refuse_both("fields_every", "fields_times");
-  if (const auto every = options.find_integer("fields_every"))
-    choice.fields_every = static_cast<long>(*every);
+  options.refuse_both("fields_interval", "fields_times");
+  choice.fields = read_cadence(options, "fields", [&](const std::string& name) {
+    const auto every = options.find_integer(name);
+    return every ? std::optional<long>(static_cast<long>(*every)) : std::nullopt;
+  });
   choice.fields_times = options.reals("fields_times");
-  if (choice.fields_every || !choice.fields_times.empty()) {
+  if (choice.fields.given() || !choice.fields_times.empty()) {
     choice.quantities = field_quantities(options.text("fields_quantities"));
     choice.fields_box = read_box(options);
   } else {
     options.refuse_idle({"fields_quantities", "fields_box"},
-                        {"without -fields_every or -fields_times", "give one of them"});
+                        {"without -fields_every, -fields_interval or -fields_times", "give one of them"});
   }
 }
 
@@ -71,21 +86,36 @@ std::optional<StatisticsChoice> read_statistics(const Options& options) {
 
 }  // namespace
 
+long Cadence::steps(double step, long otherwise) const {
+  if (every) return *every;
+  if (!interval) return otherwise;
+  if (*interval < 0.999 * step)
+    throw UserError(
+        format("-{} is {:g} s, less than the step of {:g} s; give at least that", option, *interval, step));
+  return std::max(1L, std::lround(*interval / step));
+}
+
 Schema record_schema() {
   return {
       {"output_folder", Kind::text, "", "out", range::any,
        "folder of the run; an older run in it is replaced"},
       {"history_every", Kind::integer, "1", "10", range::at_least_one,
        "steps between the rows of history.h5"},
+      {"history_interval", Kind::real, "s", absent, range::positive,
+       "time between them, in place of history_every; rounded to whole steps"},
       {"history_points", Kind::reals, "m", absent, range::any,
        "points x1,y1,x2,y2,... whose u, v and stress are followed"},
       {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of contact.h5; auto makes about a thousand rows"},
+      {"contact_interval", Kind::real, "s", absent, range::positive,
+       "time between them, in place of contact_every; rounded to whole steps"},
       {"fields_every", Kind::integer, "1", absent, range::at_least_one,
        "steps between the frames of fields.h5"},
+      {"fields_interval", Kind::real, "s", absent, range::positive,
+       "time between them, in place of fields_every; rounded to whole steps"},
       {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
       {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
-       "what a frame holds: some of u,v,stress,strain"},
+       "what a frame holds: some of u,v,stress,strain,von_mises,principal"},
       {"fields_box", Kind::reals, "m", absent, range::any,
        "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
       {"statistics_from", Kind::real, "s", absent, range::non_negative,
@@ -107,12 +137,15 @@ Schema record_schema() {
 RecordChoice read_record(const Options& options) {
   RecordChoice choice;
   choice.folder = options.text("output_folder");
-  choice.history_every = static_cast<long>(options.integer("history_every"));
+  choice.history = read_cadence(options, "history", [&](const std::string& name) {
+    return std::optional<long>(static_cast<long>(options.integer(name)));
+  });
   choice.points = read_points(options);
   if (has_surface(options))
-    choice.contact_every = steps_or_auto(options, "contact_every");
+    choice.contact = read_cadence(options, "contact",
+                                  [&](const std::string& name) { return steps_or_auto(options, name); });
   else
-    options.refuse_idle({"contact_every"}, without_surface);
+    options.refuse_idle({"contact_every", "contact_interval"}, without_surface);
   read_fields(options, choice);
   choice.statistics = read_statistics(options);
   choice.progress = options.text("progress");

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/record/stress_measures.hpp"
 #include "slipscale/solid/stress.hpp"
 #include "summary.hpp"
 
 namespace slipscale {
 namespace {
-
-bool is_root(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank == 0;
-}
 
 /// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
 /// it.
@@ -56,6 +52,22 @@ const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice)
   return choice;
 }
 
+/// σ_zz/(σ_xx + σ_yy) of each local cell, for frames that need it.
+std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& choice) {
+  if (!choice.quantities.stress && !choice.quantities.von_mises) return {};
+  std::vector<double> of_region;
+  for (std::size_t r = 0; r < model.materials.size(); ++r) {
+    of_region.push_back(transverse_ratio(model.materials[r]));
+    if (choice.quantities.von_mises && std::isnan(of_region.back()))
+      throw UserError(
+          "-fields_quantities has von_mises, but the stiffness of region '" + model.mesh.regions[r].name +
+          "' is not isotropic and does not tell the stress across the plane; leave von_mises out");
+  }
+  std::vector<double> of_cell;
+  for (const int region : model.mesh.cells.region) of_cell.push_back(of_region[region]);
+  return of_cell;
+}
+
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
@@ -71,39 +83,48 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       choice_(checked(body, choice)),
       time_(time),
       last_(time.count),
-      history_every_(choice.history_every),
+      history_every_(choice.history.steps(time.step, 1)),
       has_contact_(body.scene().surface.has_value()),
-      contact_every_(choice.contact_every ? *choice.contact_every : std::max(1L, time.count / 1000)),
+      contact_every_(choice.contact.steps(time.step, std::max(1L, time.count / 1000))),
+      fields_every_(choice.fields.given() ? std::optional(choice.fields.steps(time.step, 1)) : std::nullopt),
       field_steps_(steps_of(choice.fields_times, time)),
+      transverse_(transverse_of_cells(body.model(), choice)),
       window_(window_of(choice, time)),
       observer_(body),
       probes_(body.comm(), body.model(), choice.points),
+      force_(body, history_every_ > 1 ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder,
               {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf",
                "statistics.h5", "statistics.xdmf"}),
       compliance_(compliances(body.model().materials)),
       progress_(choice.progress, 0, static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
-  if (choice.fields_every || !field_steps_.empty())
+  if (fields_every_ || !field_steps_.empty())
     fields_ = std::make_unique<FieldsFile>(body.comm(),
                                            MeshImage(body.comm(), body.model().mesh, choice.fields_box),
-                                           folder_.path(), choice.quantities);
+                                           folder_.path(), choice.quantities, "fields", transverse_);
   if (window_)
     statistics_ = std::make_unique<StressStatistics>(body.comm(), body.model().mesh, *window_,
                                                      choice.statistics->quantile);
   if (is_root(body.comm())) {
-    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions());
-    if (has_contact_) contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_);
+    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions(),
+                                             rows(history_every_));
+    if (has_contact_)
+      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_));
   }
+  const std::string checksum = checksum_text(body.model().mesh.checksum);
+  if (history_) history_->series().about("mesh_checksum", checksum);
+  if (contact_) contact_->series().about("mesh_checksum", checksum);
   share_faults();
 }
 
 bool Recorder::fields_due(long n) const {
-  if (choice_.fields_every) return n % *choice_.fields_every == 0 || n == last_;
+  if (fields_every_) return n % *fields_every_ == 0 || n == last_;
   return std::binary_search(field_steps_.begin(), field_steps_.end(), n);
 }
 
 void Recorder::after_step(long n) {
+  force_.add(n);
   if (due(n)) observe(n);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
@@ -131,7 +152,7 @@ void Recorder::record_cells(long n) {
   const Model& model = body_.model();
   const Cells& cells = model.mesh.cells;
   const bool strain = sample || choice_.quantities.strain;
-  if (strain || choice_.quantities.stress)
+  if (strain || choice_.quantities.of_stress())
     cell_stress(model.mesh, model.materials, body_.displacement_n(), stress_);
   if (strain) strain_.resize(stress_.size());
   for (int cell = 0; strain && cell < cells.size(); ++cell)
@@ -159,7 +180,7 @@ void Recorder::stop(const std::string& fault) const {
     kept += format(", and the statistics of {} samples", statistics_->samples());
     try {
       statistics_->write(folder_.path());
-    } catch (const UserError& error) {
+    } catch (const RunError& error) {
       kept = error.what();
     }
   }
@@ -170,7 +191,7 @@ void Recorder::share_faults() {
   std::string fault;
   if (history_ && !history_->series().fault().empty()) fault = history_->series().fault();
   if (contact_ && !contact_->series().fault().empty()) fault = contact_->series().fault();
-  throw_together(body_.comm(), fault);
+  stop_together(body_.comm(), fault);
 }
 
 }  // namespace slipscale

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
 #include "slipscale/dynamics/remarks.hpp"
@@ -13,12 +14,6 @@
 
 namespace slipscale {
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 /// Seconds of one step on the slowest rank: a step costs about 1.7 products of this mesh's own stiffness,
 /// which is timed here (bulk arrays, damping and boundary nodes make up the rest).
@@ -43,36 +38,43 @@ double memory_of_all_ranks(MPI_Comm comm) {
   return memory;
 }
 
-std::string hexadecimal(std::uint64_t value) {
-  return format("{:016x}", static_cast<unsigned long long>(value));
-}
-
 }  // namespace
 
 std::string Recorder::forecast() const {
-  const auto rows = [&](long every) { return static_cast<double>(last_ / every + 1); };
   double frames = static_cast<double>(field_steps_.size());
-  if (choice_.fields_every) frames = rows(*choice_.fields_every);
+  if (fields_every_) frames = rows(*fields_every_);
   double bytes = 0;
-  if (history_) bytes += rows(history_every_) * static_cast<double>(history_->series().row_bytes());
-  if (contact_) bytes += rows(contact_every_) * static_cast<double>(contact_->series().row_bytes());
+  if (history_) bytes += history_->series().bytes(rows(history_every_));
+  if (contact_) bytes += contact_->series().bytes(rows(contact_every_));
   if (fields_) bytes += fields_->bytes(frames);
   if (statistics_) bytes += statistics_->bytes();
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
   return format("{} steps to {}, about {}, memory {}, output {} in '{}'\n", last_,
                 engineering(static_cast<double>(last_) * time_.step, "s"), readable_duration(seconds),
                 readable_bytes(memory_of_all_ranks(body_.comm())), readable_bytes(bytes), folder_.path()) +
-         (statistics_ ? statistics_->forecast(time_.step) : "");
+         cadences() + (statistics_ ? statistics_->forecast(time_.step) : "");
+}
+
+std::string Recorder::cadences() const {
+  const auto cadence = [&](long every) {
+    return format("{} ({})", every == 1 ? "every step" : format("every {} steps", every),
+                  engineering(static_cast<double>(every) * time_.step, "s"));
+  };
+  std::string text = "a row of history.h5 " + cadence(history_every_);
+  if (has_contact_) text += ", of contact.h5 " + cadence(contact_every_);
+  if (fields_every_) text += ", a frame of fields.h5 " + cadence(*fields_every_);
+  return text + "\n";
 }
 
 void Recorder::write_run(const Options& options) const {
-  int ranks = 1;
-  MPI_Comm_size(body_.comm(), &ranks);
+  const int ranks = ranks_of(body_.comm());
   const Model& model = body_.model();
   const auto facts = [&](Yaml& yaml) {
     const Mesh& mesh = model.mesh;
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
-    yaml.text("mesh_checksum", "fnv1a:" + hexadecimal(mesh.checksum), "of the mesh file");
+    yaml.text("mesh_checksum", checksum_text(mesh.checksum), "of the mesh file");
+    for (std::size_t k = 0; k < mesh.notes.size(); ++k)
+      yaml.text(format("mesh_note_{}", k + 1), mesh.notes[k]);
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
     yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m")
         .number("block_height", mesh.upper[1] - mesh.lower[1], "m");
@@ -95,13 +97,14 @@ std::string Recorder::finish() {
   share_faults();
   if (statistics_) statistics_->write(folder_.path());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const std::vector<double> force = force_.gather();
   std::vector<std::string> remarks = remarks_at_start(body_);
   for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
   const Momentum momentum = body_.momentum();
   std::string text;
-  if (rank_of(body_.comm()) == 0)
-    text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, largest_residual_,
-                         seconds, std::move(remarks), momentum});
+  if (is_root(body_.comm()))
+    text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, contact_every_, force,
+                         largest_residual_, seconds, std::move(remarks), momentum});
   folder_.write_text("summary.yaml", text);
   return text;
 }

@@ -1,5 +1,6 @@
 #include "slipscale/relocalize/relocalised_file.hpp"
 
+#include "slipscale/base/finite.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
@@ -7,10 +8,11 @@
 namespace slipscale {
 namespace {
 
+const std::vector<std::string> components{"xx", "yy", "xy"};
 constexpr const char* data_file = "relocalized.h5";
 
 double frame_bytes(const PlaneGrid& grid) {
-  constexpr double header = 4000;
+  constexpr double header = 16000;
   return header + 9 * sizeof(double) * static_cast<double>(grid.cells());
 }
 
@@ -40,16 +42,16 @@ struct RelocalisedFile::File {
 
   void add(const std::string& name, const char* units, const std::string& text,
            std::span<const PlaneTensor> rows) {
-    data.write({frame_path(times.size()) + name, units, text + "; xx, yy and xy"}, image.cells(), {3},
+    stop_unless_finite(comm, {rows.empty() ? nullptr : rows.front().data(), 3 * rows.size()}, text);
+    const DatasetDescription about{frame_path(times.size()) + name, units, text};
+    data.write({about.path, units, text + "; xx, yy and xy"}, image.cells(), {3},
                rows.empty() ? nullptr : rows.front().data());
+    (void)write_components(data, layout, about, {3}, components, name);
   }
 
   /// What every rank knows and rank 0 writes.
   void add(const DatasetDescription& about, std::vector<hsize_t> shape, const double* values) {
-    int rank = 0;
-    MPI_Comm_rank(comm, &rank);
-    const hsize_t rows = rank == 0 ? shape[0] : 0;
-    data.write(about, {std::move(shape), 0, rows}, H5T_NATIVE_DOUBLE, values);
+    data.write(about, slice_of_root(comm, std::move(shape)), H5T_NATIVE_DOUBLE, values);
   }
 
   void add(std::size_t number, const LocalHistory& history) {
@@ -70,8 +72,10 @@ struct RelocalisedFile::File {
 
   XdmfDocument document() const {
     XdmfDocument shown{data_file, "relocalised", layout, {xdmf_region()}, times};
-    for (const char* name : {"stress", "strain", "homogeneous_stress"})
-      shown.attributes.push_back({.name = name, .path = name, .row = {3}});
+    for (const std::string name : {"stress", "strain", "homogeneous_stress"})
+      for (const std::string& component : components)
+        shown.attributes.push_back(
+            {.name = name + "_" + component, .path = name + "_" + component, .row = {}});
     return shown;
   }
 };

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/grid_file.hpp"
 
 namespace slipscale {
@@ -47,11 +48,10 @@ void StatisticsReader::read_covariance(const std::string& quantity, std::span<st
 }
 
 bool has_statistics(MPI_Comm comm, const std::string& folder) {
-  int rank = 0, found = 0;
-  MPI_Comm_rank(comm, &rank);
+  int found = 0;
   std::error_code ignored;
   namespace fs = std::filesystem;
-  if (rank == 0) found = fs::exists(fs::path(folder) / "statistics.h5", ignored);
+  if (is_root(comm)) found = fs::exists(fs::path(folder) / "statistics.h5", ignored);
   MPI_Bcast(&found, 1, MPI_INT, 0, comm);
   return found != 0;
 }

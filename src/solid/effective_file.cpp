@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/yaml_text.hpp"
 
 namespace slipscale {
 namespace {
@@ -28,6 +29,8 @@ EffectiveFile read_effective_file(const std::string& path, const std::string& op
   if (!std::ifstream(path))
     throw UserError("-" + option + ": cannot read '" + path +
                     "'; give the effective.yaml of a homogenised material");
+  // Refuses what PETSc would take for something else, or take for ever.
+  (void)read_yaml("-" + option + ": '" + path + "'", read_on_all("-" + option, path));
   Database database;
   if (PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, database, path.c_str(), PETSC_TRUE))
     throw UserError("-" + option + ": '" + path + "' is not valid YAML (" + take_petsc_message() +
@@ -45,6 +48,10 @@ EffectiveFile read_effective_file(const std::string& path, const std::string& op
     throw UserError(
         "-" + option + ": '" + path +
         "' must hold 'stiffness: [c11, c22, c12, c66, c16, c26]' in Pa and 'density:' > 0 in kg/m3");
+  std::string doubt(4096, '\0');
+  PetscBool has_doubt = PETSC_FALSE;
+  petsc(PetscOptionsGetString(database, nullptr, "-doubt", doubt.data(), doubt.size(), &has_doubt));
+  if (has_doubt) file.doubt = doubt.c_str();
   return file;
 }
 

@@ -11,6 +11,8 @@
 namespace slipscale {
 namespace {
 
+const Range poissons_ratio{"> -1 and < 0.5", [](double x) { return x > -1 && x < 0.5; }};
+
 Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
   if (c.size() != 6)
     throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " +
@@ -34,6 +36,7 @@ Material from_file(const std::string& option, const std::string& path) {
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
   material.description = six_numbers(material.stiffness) + format(", {:.4g} kg/m3 ({})", file.density, path);
+  if (!file.doubt.empty()) material.description += "; DOUBTFUL: " + file.doubt;
   return material;
 }
 
@@ -104,7 +107,7 @@ WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
 Schema material_schema() {
   return {
       {"material_<region>_young", Kind::real, "Pa", required, range::physical_positive, "Young's modulus"},
-      {"material_<region>_poisson", Kind::real, "1", required, range::poisson, "Poisson's ratio"},
+      {"material_<region>_poisson", Kind::real, "1", required, poissons_ratio, "Poisson's ratio"},
       {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::physical,
        "c11,c22,c12,c66,c16,c26 in plane strain, in place of young and poisson"},
       {"material_<region>_density", Kind::real, "kg/m3", required, range::physical_positive, "mass density"},

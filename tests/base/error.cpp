@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/petsc.hpp"
 
 using namespace slipscale;
 
 namespace {
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
 
 std::string failure_of(const auto& action) {
   try {
@@ -54,10 +49,10 @@ TEST(Petsc, MessageIsTakenOnce) {
 TEST(ThrowTogether, NoFaultIsNoError) { EXPECT_NO_THROW(throw_together(MPI_COMM_WORLD, "")); }
 
 TEST(ThrowTogether, EveryRankThrowsTheTextOfTheLowest) {
-  int size = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int size = ranks_of(MPI_COMM_WORLD);
   for (int first = 0; first < size; ++first) {
-    const std::string fault = rank_of_world() >= first ? "found by " + std::to_string(rank_of_world()) : "";
+    const std::string fault =
+        rank_of(MPI_COMM_WORLD) >= first ? "found by " + std::to_string(rank_of(MPI_COMM_WORLD)) : "";
     EXPECT_THROW(throw_together(MPI_COMM_WORLD, fault), UserError);
     EXPECT_EQ(failure_of([&] { throw_together(MPI_COMM_WORLD, fault); }),
               "found by " + std::to_string(first));
@@ -65,7 +60,7 @@ TEST(ThrowTogether, EveryRankThrowsTheTextOfTheLowest) {
 }
 
 TEST(ThrowTogether, TextsMayBeLong) {
-  const std::string fault(100000, rank_of_world() == 0 ? 'a' : 'b');
+  const std::string fault(100000, is_root(MPI_COMM_WORLD) ? 'a' : 'b');
   EXPECT_EQ(failure_of([&] { throw_together(MPI_COMM_WORLD, fault); }), std::string(100000, 'a'));
 }
 

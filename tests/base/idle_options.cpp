@@ -1,4 +1,7 @@
 // Options that are given and have no effect: refused, or set aside where a later place overrules them.
+#include <cstdlib>
+#include <stdexcept>
+
 #include "options_fixture.hpp"
 
 using namespace slipscale;
@@ -11,9 +14,9 @@ class IdleOptions : public OptionsTest {
  protected:
   /// The coefficient from one place, the law from another.
   static Options from(int coefficient, int law) {
-    give({{"friction_coefficient", "0.3"}, {"friction_law", "none"}});
     return Options("slide", schema(),
-                   {{"friction_coefficient", {coefficient, "a.yaml"}}, {"friction_law", {law, "b.yaml"}}});
+                   {{"friction_coefficient", "0.3", {coefficient, "a.yaml"}},
+                    {"friction_law", "none", {law, "b.yaml"}}});
   }
 };
 
@@ -41,6 +44,7 @@ TEST_F(IdleOptions, AreSetAsideWhereALaterPlaceMakesThemIdle) {
   EXPECT_FALSE(read.effective().contains("friction_coefficient"));
   EXPECT_NE(sentence([&] { (void)read.real("friction_coefficient"); }).find("not given"), std::string::npos);
   (void)read.text("friction_law");
+  ask_for_all(read);
   EXPECT_NO_THROW(read.refuse_unread());
 }
 
@@ -52,12 +56,36 @@ TEST_F(IdleOptions, ThatNobodyReadAreRefused) {
       sentence([&] { read.refuse_unread(); }),
       "-friction_coefficient has no effect in this scene; remove it (slide -help says what it belongs to)");
   (void)read.real("friction_coefficient");
+  ask_for_all(read);
   EXPECT_NO_THROW(read.refuse_unread());
+}
+
+/// An option is declared in one place and read in others: forgetting the second is no mistake of the user.
+TEST_F(IdleOptions, ThatNoReaderKnowsAreAMistakeOfTheProgrammer) {
+  for (const char* forgotten : {"initial_gap", "boundary_top_pressure", "material_top_young"}) {
+    const Options read = options();
+    ask_for_all(read, {forgotten});
+    EXPECT_THROW(read.refuse_unread(), std::logic_error) << forgotten;
+    read.refuse_idle({forgotten}, no_law);  // saying that it is idle is knowing it
+    EXPECT_NO_THROW(read.refuse_unread()) << forgotten;
+  }
+  Options bare = options();  // no boundary of the mesh could have the option
+  ask_for_all(bare, {"boundary_top_pressure", "boundary_top_x"});
+  bare.know_names("boundary", {});
+  EXPECT_NO_THROW(bare.refuse_unread());
+}
+
+TEST_F(IdleOptions, NamesOfAGroupComeFromItsSchema) {
+  EXPECT_EQ(names_in(schema(), "material_<region>_", "matrix"),
+            (std::vector<std::string>{"material_matrix_young", "material_matrix_poisson"}));
+  EXPECT_EQ(names_in(schema(), "run_"), std::vector<std::string>{});
 }
 
 TEST_F(IdleOptions, EntriesAndOptionsOfPetscNeedNoReader) {
   give({{"run_version", "0.1"}, {"log_view", nullptr}, {"ksp_rtol", "1e-3"}});
-  EXPECT_NO_THROW(options().refuse_unread());
+  const Options read = options();
+  ask_for_all(read);
+  EXPECT_NO_THROW(read.refuse_unread());
 }
 
 TEST_F(IdleOptions, OfTwoThatSayTheSameTheLaterCounts) {
@@ -74,16 +102,58 @@ TEST_F(IdleOptions, OfTwoThatSayTheSameTheLaterCounts) {
             "note: -friction_law of b.yaml gives way to -friction_coefficient (a.yaml); it is set aside");
 }
 
-/// PETSc keeps the first spelling in its database; who wrote the second one is known from elsewhere.
+/// Options know no difference between capitals and small letters, and users should not rely on one.
 TEST_F(IdleOptions, ASecondSpellingIsSeen) {
-  give({{"friction_coefficient", "0.3"}});
-  const Origins origins = {{"friction_coefficient", {1, "a.yaml"}}, {"Friction_Coefficient", {2, "b.yaml"}}};
   EXPECT_EQ(
-      sentence([&] { (void)Options("slide", schema(), origins); }),
+      sentence([&] {
+        (void)Options(
+            "slide", schema(),
+            {{"friction_coefficient", "0.3", {1, "a.yaml"}}, {"Friction_Coefficient", "0.3", {2, "b.yaml"}}});
+      }),
       "-Friction_Coefficient differs in capitals from the option it means; write -friction_coefficient");
-  give({{"material_Fibre_young", "1"}});
-  Options read("slide", schema(), {{"material_fibre_young", {2, "b.yaml"}}});
+  Options read("slide", schema(),
+               {{"material_Fibre_young", "1", {1, "a.yaml"}}, {"material_fibre_young", "1", {2, "b.yaml"}}});
   EXPECT_EQ(
       sentence([&] { read.know_names("region", {"Fibre"}); }),
       "-material_fibre_young differs in capitals from the option it means; write -material_Fibre_young");
+}
+
+TEST_F(IdleOptions, TheLastPlaceHasTheLastWord) {
+  const Options read(
+      "slide", schema(),
+      {{"friction_coefficient", "0.3", {1, "a.yaml"}}, {"friction_coefficient", "0.4", {2, "b.yaml"}}});
+  EXPECT_EQ(read.real("friction_coefficient"), 0.4);
+  EXPECT_EQ(read.typed(), (std::vector<std::string>{"friction_coefficient"}));
+}
+
+/// PETSc's database holds 512.
+TEST_F(IdleOptions, ThousandsOfOptionsHaveRoom) {
+  std::vector<Written> written;
+  std::vector<std::string> regions;
+  for (int k = 0; k < 1000; ++k) {
+    regions.push_back("grain_" + std::to_string(k));
+    for (const char* key : {"_young", "_poisson"})
+      written.push_back({"material_" + regions.back() + key, "0.1"});
+  }
+  Options read("slide", schema(), written);
+  read.know_names("region", regions);
+  for (const std::string& region : regions) EXPECT_EQ(read.real("material_" + region + "_young"), 0.1);
+  EXPECT_EQ(read.effective().size(), 1000u);
+}
+
+TEST_F(IdleOptions, WhatAFileOfPetscSaysIsTracedToIt) {
+  const auto said = [](const char* options) {
+    setenv("PETSC_OPTIONS", options, 1);
+    petsc(PetscOptionsClear(nullptr));
+    petsc(PetscOptionsInsertString(nullptr, options));
+    const std::string text = sentence([] { (void)Options("slide", schema()); });
+    unsetenv("PETSC_OPTIONS");
+    return text;
+  };
+  EXPECT_EQ(
+      said("-wind_speed 3"),
+      "-wind_speed is not an option of slide; see slide -help (it stands in the variable PETSC_OPTIONS)");
+  EXPECT_EQ(
+      said("-friction_coefficient -3"),
+      "-friction_coefficient is -3, but it must be >= 0 (ratio) (it stands in the variable PETSC_OPTIONS)");
 }

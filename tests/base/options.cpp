@@ -62,7 +62,11 @@ TEST_F(OptionsTest, NumbersAreReadStrictly) {
     EXPECT_NE(answer("friction_coefficient", text).find("must be a number >= 0 (ratio)"), std::string::npos)
         << text << ": " << answer("friction_coefficient", text);
   }
-  for (const char* text : {"1.5", "1e3", "three", "99999999999999999999"})
+  EXPECT_EQ(answer("history_every", "4294967296"),
+            "-history_every is 4294967296, but it must be at most 2147483647");
+  EXPECT_EQ(answer("history_every", "-99999999999999999999"),
+            "-history_every is -99999999999999999999, but it must be >= 1");
+  for (const char* text : {"1.5", "1e3", "three"})
     EXPECT_EQ(answer("history_every", text),
               "-history_every is '" + std::string(text) + "', but it must be a whole number >= 1");
   EXPECT_EQ(

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "slipscale/base/error.hpp"
@@ -21,7 +22,12 @@ class OptionsTest : public testing::Test {
         {"friction_coefficient", Kind::real, "1", required, range::non_negative, "Coulomb's coefficient."},
         {"friction_law", Kind::text, "", "none", range::one_of({"none", "coulomb"}), "Friction law."},
         {"material_<region>_young", Kind::real, "Pa", absent, range::positive, "Young's modulus."},
-        {"material_<region>_poisson", Kind::real, "1", absent, range::poisson, "Poisson's ratio."},
+        {"material_<region>_poisson",
+         Kind::real,
+         "1",
+         absent,
+         {"> -1 and < 0.5", [](double x) { return x > -1 && x < 0.5; }},
+         "Poisson's ratio."},
         {"boundary_<boundary>_x", Kind::text, "m", "free",
          range::one_of_or_number({"free", "fixed"}, range::any), "Motion along x."},
         {"boundary_<boundary>_pressure", Kind::real, "Pa", "0", range::any, "Pressure."},
@@ -36,7 +42,7 @@ class OptionsTest : public testing::Test {
     };
   }
 
-  /// Puts options into the database; a null value is an option without value.
+  /// Puts options into PETSc's database; a null value is an option without value.
   static void give(const std::map<std::string, const char*>& values) {
     for (const auto& [name, value] : values)
       slipscale::petsc(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value));
@@ -52,10 +58,19 @@ class OptionsTest : public testing::Test {
     }
     return "";
   }
-  /// The sentence the user sees for one option alone.
+  /// The sentence the user sees for one option alone, of a mesh with these names.
   static std::string answer(const std::string& name, const char* value) {
     slipscale::petsc(PetscOptionsClear(nullptr));
     give({{name, value}});
-    return sentence([] { (void)options(); });
+    return sentence([] {
+      slipscale::Options read = options();
+      read.know_names("region", {"matrix", "my_fibre", "steel", "Matrix_b"});
+      read.know_names("boundary", {"top"});
+    });
+  }
+  /// Asks for every option of the schema but those, as the readers of a program do between them.
+  static void ask_for_all(const slipscale::Options& read, const std::set<std::string>& but = {}) {
+    for (const std::string& name : slipscale::names_in(schema(), "", "top"))
+      if (!but.contains(name)) (void)read.given(name);
   }
 };

@@ -67,6 +67,10 @@ refuses 'did you mean -history_every?' -history
 [ ! -e 5 ] || fail 'PETSc wrote a log file'
 refuses 'nor PETSc has read it' -ksp_rtol 1e-3
 refuses 'did you mean -log_view?' -log_veiw
+refuses "-log_view is 'mumps'" -log_view mumps
+refuses "-options_left is '-1'" -options_left -1
+refuses "-fp_trap is 'cg', but it must be true or false" -fp_trap cg
+refuses "-malloc_debug is 'aij'" -malloc_debug aij
 accepts 'coefficient 0.3' -friction_coefficient 0.3
 accepts 'every 7' -run_speed 3 -history_every 7 -no_signal_handler -malloc_debug false
 accepts 'young 3e+09' -material_Fibre_young 3e9
@@ -99,6 +103,9 @@ printf 'friction: {coefficient: }\n' > blank.yaml
 printf 'log_view:\n' > late.yaml
 printf '$$base: &base {young: 1}\nmaterial: {Fibre: {<<: *base, young: 2}}\n' > merge.yaml
 : > empty.yaml
+printf 'friction: {coefficient: 0.5}\nfriction: {law: none}\n' > blocks.yaml
+printf 'friction: {coefficient: 010}\n' > octal.yaml
+printf -- '-wind_speed 3\n' > foreign.txt
 printf 'material: {1: {young: 3}}\n' > digits.yaml
 printf '# a comment\n1: {young: 3}\n' > number.yaml
 printf -- '-friction_coefficient: 0.5\n' > dashes.yaml
@@ -119,6 +126,8 @@ refuses 'prose.yaml does not consist of options near line 1' -options_file_yaml 
 refuses 'did you mean -friction_coefficient?' -options_file_yaml misspelt.yaml
 refuses 'did you mean -history_every?' -options_file_yaml history.yaml
 refuses '-friction_coefficient has no value' -options_file_yaml blank.yaml
+refuses "blocks.yaml gives 'friction' twice near line 2" -options_file_yaml blocks.yaml
+refuses '-friction_coefficient is 010, which YAML takes for a number in base 8' -options_file_yaml octal.yaml
 refuses 'late.yaml: log_view is read when PETSc starts' -options_file_yaml late.yaml
 accepts 'young 2' -options_file_yaml merge.yaml
 refuses "names the region '1', which the mesh does not have" -options_file_yaml digits.yaml
@@ -128,6 +137,7 @@ refuses 'tabs.yaml is not valid YAML near line 2' -options_file_yaml tabs.yaml
 refuses "cannot read 'absent.yaml'" -options_file_yaml absent.yaml
 refuses "cannot read '$folder'" -options_file_yaml "$folder"
 refuses "cannot read 'absent.txt'" -options_file absent.txt
+refuses "(it stands in 'foreign.txt')" -options_file foreign.txt
 refuses '-options_file_yaml has no value' -options_file_yaml
 refuses '-options_file_yaml has no value' -options_file_yaml -friction_coefficient 0.3
 
@@ -137,6 +147,7 @@ accepts 'Prints what it was told.' -help -options_file_yaml absent.yaml
 [ "$(wc -L < out)" -le 110 ] || fail 'the manual is wider than 110 columns'
 grep -q -- '-history_points' out || fail 'the manual lacks an option'
 accepts 'PETSc 3.' -version
+accepts ', HDF5 1.' -version
 accepts 'Summary of Stages' -log_view
 refuses 'echo: the mesh has a hole; mend it' -fail user
 breaks 'METIS gave up' -fail library

@@ -26,10 +26,10 @@ TEST_F(OptionsTest, CapitalsCount) {
   EXPECT_EQ(
       answer("Friction_coefficient", "3"),
       "-Friction_coefficient differs in capitals from the option it means; write -friction_coefficient");
-  EXPECT_EQ(
-      answer("Material_Matrix_Young", "3"),
-      "-Material_Matrix_Young differs in capitals from the option it means; write -material_Matrix_young");
-  EXPECT_EQ(answer("material_Matrix_young", "3"), "");
+  EXPECT_EQ(answer("Material_matrix_B_Young", "3"),
+            "-Material_matrix_B_Young differs in capitals from the option it means; write "
+            "-material_Matrix_b_young");
+  EXPECT_EQ(answer("material_Matrix_b_young", "3"), "");
 }
 
 TEST_F(OptionsTest, RegionsMustBeKnown) {
@@ -77,7 +77,7 @@ TEST_F(OptionsTest, EntriesOfRunAreIgnored) {
 
 TEST_F(OptionsTest, OptionsOfPetscMustBeUsedInTheEnd) {
   give({{"ksp_rtol", "1e-3"}, {"log_view", nullptr}, {"citations", nullptr}, {"cell_ksp_type", "cg"}});
-  const Options read = options();
+  const Options read("slide", schema(), {}, {"cell_"});
   EXPECT_EQ(
       sentence([&] { read.refuse_unknown(); }),
       "-cell_ksp_type was given but neither slide nor PETSc has read it; remove it, or correct its name");
@@ -85,6 +85,33 @@ TEST_F(OptionsTest, OptionsOfPetscMustBeUsedInTheEnd) {
   petsc(PetscOptionsHasName(nullptr, "cell_", "-ksp_type", &found));
   petsc(PetscOptionsHasName(nullptr, nullptr, "-ksp_rtol", &found));
   EXPECT_NO_THROW(read.refuse_unknown());
+}
+
+TEST_F(OptionsTest, PrefixesOfSolversAreTheProgramsOwn) {
+  EXPECT_NE(answer("cell_ksp_type", "cg").find("is not an option of slide"), std::string::npos);
+}
+
+/// Before the mesh is read nobody knows which names there are, and no option is proposed that may not exist.
+TEST_F(OptionsTest, SuggestionsExist) {
+  give({{"boundary_top_pressure_file", "3"}});
+  Options read = options();
+  EXPECT_EQ(sentence([&] {
+              read.know_names("boundary", {"top", "bottom"});
+            }),
+            "-boundary_top_pressure_file is not an option of slide; did you mean -boundary_top_pressure?");
+  Options bare = options();
+  EXPECT_EQ(sentence([&] { bare.know_names("boundary", {"bottom"}); }),
+            "-boundary_top_pressure_file is not an option of slide; see slide -help");
+  EXPECT_EQ(answer("material_martix_yuong", "3"),
+            "-material_martix_yuong is not an option of slide; did you mean -material_matrix_young?");
+  EXPECT_EQ(answer("young", "3"), "-young is not an option of slide; did you mean -material_matrix_young?");
+  EXPECT_EQ(answer("pressure", "3"),
+            "-pressure is not an option of slide; did you mean -boundary_top_pressure?");
+  petsc(PetscOptionsClear(nullptr));
+  give({{"material_martix_yuong", "3"}});
+  Options other = options();
+  EXPECT_EQ(sentence([&] { other.know_names("region", {"polytetrafluoroethylene"}); }),
+            "-material_martix_yuong is not an option of slide; see slide -help");
 }
 
 TEST_F(OptionsTest, DeclaredOptionsNeedNotBeRead) {

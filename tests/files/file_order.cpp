@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "slipscale/base/parallel.hpp"
+
 using namespace slipscale;
 
 namespace {
 
 /// Row numbers dealt to the ranks like cards, from the last to the first.
 std::vector<PetscInt> dealt(PetscInt total) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
   std::vector<PetscInt> numbers;
   for (PetscInt row = total - 1; row >= 0; --row)
     if (row % ranks == rank) numbers.push_back(row);

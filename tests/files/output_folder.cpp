@@ -8,32 +8,28 @@
 #include <sstream>
 
 #include "block_mesh.hpp"
+#include "failure.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
+using testing_support::failure_of;
 using testing_support::scratch;
 namespace fs = std::filesystem;
 
 namespace {
 
-bool first_rank() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank == 0;
-}
-
 void on_first_rank(const auto& action) {
-  if (first_rank()) action();
+  if (is_root(PETSC_COMM_WORLD)) action();
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
-std::string failure_of(const auto& action) {
-  try {
-    action();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+/// Files below the folder but for the one that keeps others out.
+int files_below(const std::string& folder) {
+  int count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    count += entry.is_regular_file() && !entry.path().filename().string().starts_with(".slipscale");
+  return count;
 }
 
 std::string text_of(const std::string& path) {
@@ -48,8 +44,8 @@ TEST(OutputFolder, IsCreatedWithTheFoldersAboveIt) {
   const OutputFolder folder(PETSC_COMM_WORLD, scratch("a") + "/b/c");
   EXPECT_TRUE(fs::is_directory(folder.path()));
   EXPECT_EQ(folder.path("run.yaml"), folder.path() + "/run.yaml");
-  if (first_rank()) {
-    EXPECT_TRUE(fs::is_empty(folder.path()));
+  if (is_root(PETSC_COMM_WORLD)) {
+    EXPECT_EQ(files_below(folder.path()), 0);
   }
 }
 
@@ -65,9 +61,7 @@ TEST(OutputFolder, LosesTheFilesOfAnOlderRunAndNothingElse) {
       PETSC_COMM_WORLD, path,
       {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf"});
   on_first_rank([&] {
-    int left = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(path)) left += entry.is_regular_file();
-    EXPECT_EQ(left, 3);
+    EXPECT_EQ(files_below(path), 3);
     for (const char* file : {"notes.txt", "checkpoint-100.h5", "sub/run.yaml"})
       EXPECT_EQ(text_of(path + "/" + file), "old");
   });
@@ -77,7 +71,7 @@ TEST(OutputFolder, ThatCannotBeIsAUsersErrorOnAllRanks) {
   const std::string path = scratch("file");
   on_first_rank([&] { std::ofstream(path) << "a file"; });
   for (const std::string& impossible : {path, path + "/below", std::string("/proc/slipscale")}) {
-    const std::string failure = failure_of([&] { OutputFolder(PETSC_COMM_WORLD, impossible); });
+    const std::string failure = failure_of<UserError>([&] { OutputFolder(PETSC_COMM_WORLD, impossible); });
     EXPECT_EQ(failure.find("-output_folder '" + impossible + "' "), 0u) << failure;
     EXPECT_NE(failure.find("; give a folder"), std::string::npos) << failure;
   }
@@ -90,9 +84,35 @@ TEST(OutputFolder, ReplacesTextsAsAWhole) {
   folder.write_text("summary.yaml", "second: 2\n");
   on_first_rank([&] {
     EXPECT_EQ(text_of(folder.path("summary.yaml")), "second: 2\n");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+    EXPECT_EQ(files_below(folder.path()), 1);
     fs::remove_all(folder.path());
   });
-  const std::string failure = failure_of([&] { folder.write_text("summary.yaml", "third: 3\n"); });
-  EXPECT_NE(failure.find("summary.yaml: No such file or directory"), std::string::npos) << failure;
+  const std::string failure = failure_of<RunError>([&] { folder.write_text("summary.yaml", "third: 3\n"); });
+  EXPECT_NE(failure.find("summary.yaml cannot be written: No such file or directory; see that"), std::string::npos) << failure;
+}
+
+TEST(OutputFolder, BelongsToOneRunAtATime) {
+  const std::string path = scratch("busy");
+  {
+    const OutputFolder folder(PETSC_COMM_WORLD, path);
+    on_first_rank([&] { std::ofstream(folder.path("run.yaml")) << "mine"; });
+    const std::string failure =
+        failure_of<UserError>([&] { const OutputFolder second(PETSC_COMM_WORLD, path, {"run.yaml"}); });
+    EXPECT_EQ(failure.find("-output_folder '" + path + "' belongs to a run that still goes on"), 0u)
+        << failure;
+    on_first_rank([&] { EXPECT_EQ(text_of(path + "/run.yaml"), "mine"); });
+  }
+  EXPECT_EQ(failure_of<UserError>([&] { const OutputFolder third(PETSC_COMM_WORLD, path); }), "");
+}
+
+TEST(Unwritable, FoldersAreSeenBeforeTheWorkAndLeftAsTheyAre) {
+  const std::string path = scratch("plain");
+  on_first_rank([&] { std::ofstream(path) << "a file"; });
+  EXPECT_EQ(failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, scratch("new") + "/a/b"); }), "");
+  EXPECT_FALSE(fs::exists(scratch("new")));
+  for (const std::string& impossible : {path, path + "/below", std::string("/proc/slipscale")}) {
+    const std::string failure =
+        failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, impossible); });
+    EXPECT_EQ(failure.find("-output_folder '" + impossible + "' cannot be "), 0u) << failure;
+  }
 }

@@ -10,6 +10,7 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 
@@ -20,12 +21,6 @@ namespace {
 
 constexpr std::array<const char*, 6> tensors{"mean",    "deviation",    "lowest",
                                              "highest", "quantile_low", "quantile_high"};
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
 
 /// Made of the cell's whole-mesh number, so that a row in a wrong place shows; standard deviations 2, 3 and 4
 /// times `scale`.
@@ -85,7 +80,7 @@ Number attribute(hid_t file, const char* name, hid_t type) {
 TEST(StatisticsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
   for (const auto& [name, block] : analytic::cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const OutputFolder alone(PETSC_COMM_SELF, folder + "/alone");
     write(PETSC_COMM_SELF, alone.path(), folder + "/block.msh");
     const auto expected = read_back::everything(alone.path("statistics.h5"));
@@ -103,7 +98,7 @@ TEST(StatisticsFile, HoldsTheSameDataOnAnyNumberOfRanks) {
 TEST(StatisticsFile, EachCellHasItsOwn) {
   for (const auto& [name, block] : analytic::cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto all = read_back::everything(folder + "/statistics.h5");
     const std::size_t cells = all.at("mesh/region").shape[0];
     const double offsets[] = {0.1, 0, -9.3, 9.7, -5.1, 5.3};
@@ -130,7 +125,7 @@ TEST(StatisticsFile, EachCellHasItsOwn) {
 
 TEST(StatisticsFile, TellsItsSample) {
   const std::string folder = folder_of(analytic::cases()[0].block);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const Hdf5File file = read_back::open(folder + "/statistics.h5");
   EXPECT_EQ(attribute<double>(file, "from", H5T_NATIVE_DOUBLE), 1e-4);
   EXPECT_EQ(attribute<double>(file, "to", H5T_NATIVE_DOUBLE), 2e-4);
@@ -140,7 +135,7 @@ TEST(StatisticsFile, TellsItsSample) {
 
 TEST(StatisticsFile, LeavesOutTailsThatAreNotKnown) {
   const std::string folder = folder_of(analytic::cases()[0].block, false);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const auto all = read_back::everything(folder + "/statistics.h5");
   EXPECT_EQ(all.size(), 4u + 2u * 3u);
   EXPECT_EQ(all.count("statistics/stress/highest"), 0u);
@@ -152,7 +147,7 @@ TEST(StatisticsFile, XdmfNamesDatasetsInTheirShape) {
   const std::regex item("Dimensions=\"([0-9 ]+)\"[^>]*>statistics.h5:([^<]+)<");
   for (const auto& [name, block] : analytic::cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const Hdf5File file = read_back::open(folder + "/statistics.h5");
     const std::string text = text_of(folder + "/statistics.xdmf");
     int count = 0;
@@ -173,7 +168,7 @@ TEST(StatisticsFile, AFullDiskStopsAllRanksAndKeepsTheOldFile) {
     testing_support::write_block(large, folder + "/large.msh");
     std::string failure;
     {
-      const read_back::SmallDisk disk(everywhere || rank_of_world() == 0 ? 300000 : 100000000);
+      const read_back::SmallDisk disk(everywhere || is_root(PETSC_COMM_WORLD) ? 300000 : 100000000);
       try {
         write(PETSC_COMM_WORLD, folder, folder + "/large.msh");
       } catch (const UserError& error) {
@@ -184,7 +179,7 @@ TEST(StatisticsFile, AFullDiskStopsAllRanksAndKeepsTheOldFile) {
         << failure;
     MPI_Barrier(PETSC_COMM_WORLD);
     EXPECT_FALSE(std::filesystem::exists(folder + "/statistics.h5.partial"));
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     EXPECT_EQ(read_back::everything(folder + "/statistics.h5").at("mesh/region").shape[0], 90u);
   }
 }
@@ -193,7 +188,7 @@ TEST(StatisticsFile, IsNearItsPredictedSize) {
   testing_support::Block block;
   block.nx = block.ny = 30;
   const std::string folder = folder_of(block);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const auto size = static_cast<double>(std::filesystem::file_size(folder + "/statistics.h5"));
   EXPECT_NEAR(statistics_bytes(31 * 31, 2 * 30 * 30) / size, 1.0, 0.1);
 }

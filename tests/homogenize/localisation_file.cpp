@@ -10,6 +10,7 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 
@@ -17,12 +18,6 @@ using namespace slipscale;
 using testing_support::scratch;
 
 namespace {
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
 
 Mesh mesh_of(MPI_Comm comm, const std::string& file) {
   MeshSource source;
@@ -101,7 +96,7 @@ std::vector<std::string> region_names(const std::string& folder) {
 TEST(LocalisationFile, HoldsTheSameDataOnAnyNumberOfRanks) {
   for (const auto& [name, block] : cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const OutputFolder alone(PETSC_COMM_SELF, folder + "/alone");
     write(PETSC_COMM_SELF, alone.path(), folder + "/block.msh");
     const auto expected = read_back::everything(alone.path("localization.h5"));
@@ -120,7 +115,7 @@ TEST(LocalisationFile, HoldsTheSameDataOnAnyNumberOfRanks) {
 TEST(LocalisationFile, EachCellHasItsTensorAndItsStress) {
   for (const auto& [name, block] : cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto all = read_back::everything(folder + "/localization.h5");
     const Hdf5File file = read_back::open(folder + "/localization.h5");
     const auto region = read_back::dataset(file, "/cell/region").values;
@@ -149,7 +144,7 @@ TEST(LocalisationFile, EachCellHasItsTensorAndItsStress) {
 
 TEST(LocalisationFile, RegionsKeepTheirStiffness) {
   const std::string folder = folder_of(cases()[0].block);
-  if (rank_of_world() != 0) return;
+  if (!is_root(PETSC_COMM_WORLD)) return;
   const auto all = read_back::everything(folder + "/localization.h5");
   const auto names = region_names(folder);
   ASSERT_EQ(names.size(), 2u);
@@ -165,7 +160,7 @@ TEST(LocalisationFile, RegionsKeepTheirStiffness) {
 TEST(LocalisationFile, AreasAreThoseOfTheDrawnCells) {
   for (const auto& [name, block] : cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto all = read_back::everything(folder + "/localization.h5");
     const auto& area = all.at("cell/area").values;
     EXPECT_NEAR(std::accumulate(area.begin(), area.end(), 0.0), 0.5, 1e-14) << name;
@@ -192,7 +187,7 @@ TEST(LocalisationFile, XdmfNamesDatasetsInTheirShape) {
       "Format=\"HDF\">localization.h5:([^<]+)<");
   for (const auto& [name, block] : cases()) {
     const std::string folder = folder_of(block);
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const Hdf5File file = read_back::open(folder + "/localization.h5");
     const std::string text = text_of(folder + "/localization.xdmf");
     int count = 0;
@@ -208,14 +203,15 @@ TEST(LocalisationFile, XdmfNamesDatasetsInTheirShape) {
 TEST(LocalisationFile, AFullDiskStopsAllRanksAndKeepsTheOldFiles) {
   for (const bool everywhere : {true, false}) {
     const std::string folder = folder_of(cases()[0].block);
-    const auto before = rank_of_world() == 0 ? read_back::everything(folder + "/localization.h5").size() : 0;
+    const auto before =
+        is_root(PETSC_COMM_WORLD) ? read_back::everything(folder + "/localization.h5").size() : 0;
     testing_support::Block large;
     large.nx = large.ny = 60;
     testing_support::write_block(large, folder + "/large.msh");
     const Mesh mesh = mesh_of(PETSC_COMM_WORLD, folder + "/large.msh");
     std::string failure;
     {
-      const read_back::SmallDisk disk(everywhere || rank_of_world() == 0 ? 300000 : 100000000);
+      const read_back::SmallDisk disk(everywhere || is_root(PETSC_COMM_WORLD) ? 300000 : 100000000);
       try {
         write_localisation(PETSC_COMM_WORLD, mesh, materials(mesh), solution(mesh), folder);
       } catch (const UserError& error) {
@@ -226,7 +222,7 @@ TEST(LocalisationFile, AFullDiskStopsAllRanksAndKeepsTheOldFiles) {
         << failure;
     MPI_Barrier(PETSC_COMM_WORLD);
     EXPECT_FALSE(std::filesystem::exists(folder + "/localization.h5.partial"));
-    if (rank_of_world() != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     EXPECT_EQ(read_back::everything(folder + "/localization.h5").size(), before);
   }
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "slipscale/base/parallel.hpp"
 #include "whole.hpp"
 
 using namespace slipscale;
@@ -119,8 +120,7 @@ TEST(Partition, IsRepeatable) {
 }
 
 TEST(Partition, CountsTheEdgesItCuts) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  const int rank = rank_of(PETSC_COMM_WORLD);
   for (const Case& c : all_cases()) {
     SCOPED_TRACE(testing::Message() << c);
     const Mesh mesh = mesh_of(c), whole = whole_mesh_of(c);
@@ -143,9 +143,7 @@ TEST(Partition, CountsTheEdgesItCuts) {
 }
 
 TEST(Partition, ReportsWhatEachRankHolds) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
   for (const Case& c : all_cases()) {
     SCOPED_TRACE(testing::Message() << c);
     const Mesh mesh = mesh_of(c);

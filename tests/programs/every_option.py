@@ -92,7 +92,7 @@ def strain_energy(stress, modulus):
 
 def quantities(run):
     return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} &
-               {"u", "v", "stress", "strain"})
+               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low"})
 
 
 def frames(run):
@@ -243,17 +243,30 @@ ROWS = {
     "history_every": Row([Answer({"OPTION": 10}, lambda run: len(run.history["time"]), becomes(21))], ALWAYS),
     "history_points": Row([Answer({"OPTION": "0,0,1e-3,1e-3,2e-3,1e-3"}, lambda run: int("points/2/u" in run.history),
                                   more)], ALWAYS),
+    "history_interval": Row([Answer({"history_every": None, "OPTION": 2e-7}, lambda run: len(run.history["time"]),
+                                    becomes(21))],
+                            [Idle({"OPTION": 2e-7}, "-history_every contradicts -history_interval")]),
+    "contact_interval": Row([Answer({"contact_every": None, "OPTION": 2e-7}, lambda run: len(run.contact["time"]),
+                                    becomes(21))],
+                            [Idle({**FREE, "OPTION": 2e-7}, "without -surface_boundary"),
+                             Idle({"OPTION": 2e-7}, "-contact_every contradicts -contact_interval")]),
+    "fields_interval": Row([Answer({"OPTION": 1e-6}, frames, becomes(5))],
+                           [Idle({"fields_times": "1e-6", "OPTION": 1e-6},
+                                 "-fields_interval contradicts -fields_times"),
+                            Idle({"fields_every": 5, "OPTION": 1e-6}, "-fields_every contradicts -fields_interval")]),
     "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))], [needs_surface(10)]),
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),
     "fields_box": Row([Answer({"OPTION": f"0,0,{SIDE / 2},{SIDE / 4}"}, lambda run: len(run.fields["mesh/region"]),
                               becomes(8), base={"fields_every": 50})],
-                      [Idle({"OPTION": "0,0,1e-3,1e-3"}, "without -fields_every or -fields_times")]),
+                      [Idle({"OPTION": "0,0,1e-3,1e-3"}, "without -fields_every, -fields_interval or -fields_times")]),
     "fields_quantities": Row([Answer({"OPTION": "u,v"}, quantities, becomes(2), base={"fields_every": 50}),
                               Answer({"OPTION": "u,v,stress,strain"}, quantities, becomes(4),
+                                     base={"fields_every": 50}),
+                              Answer({"OPTION": "u,von_mises,principal"}, quantities, becomes(4),
                                      base={"fields_every": 50})],
-                             [Idle({"OPTION": "u,v"}, "without -fields_every or -fields_times")]),
+                             [Idle({"OPTION": "u,v"}, "without -fields_every, -fields_interval or -fields_times")]),
     "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
                             Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
     "statistics_to": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES)],

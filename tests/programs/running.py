@@ -17,7 +17,7 @@ import h5py
 
 SLIDE = os.environ["SLIPSCALE_SLIDE"]
 MPIEXEC = os.environ["SLIPSCALE_MPIEXEC"]
-SECONDS = 60  # a run that takes longer hangs
+SECONDS = 180  # a run that takes longer hangs
 
 # mpiexec ends all ranks after the first that fails, so each rank leaves its own exit code in a file.
 KEEP_CODE = '"$0" "$@"; echo $? > "$CODES/$OMPI_COMM_WORLD_RANK"'

@@ -1,8 +1,7 @@
-"""slipscale.adapting.adapt with `slide`: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
+"""slipscale adapt: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
 
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,11 +9,10 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-RUNS = Path(__file__).parents[2] / "runs"
 PERIOD = 6.283185307179586
 TRUTH = 0.1
 DRIVE = 0.5 * 1e-4 * PERIOD * 7e-4  # μ N0 V
-POWER = {0.0: 0.435, 0.025: 0.423, 0.05: 0.398, 0.1: 0.332, 0.2: 0.216}  # P_in over it, nx = 64, separate prototype
+POWER = {0.0: 0.435, 0.025: 0.423, 0.05: 0.398, 0.1: 0.332, 0.2: 0.216}  # P_in over it, nx = 64: verification/second_program.py
 SCENE = {  # c_s = ρ = 1, H = 2, p0/G = 1e-4
     "material_all_young": 2.6, "material_all_poisson": 0.3, "material_all_density": 1, "surface_boundary": "bottom",
     "surface_speed": 7e-4, "friction_law": "regularized", "friction_coefficient": 0.5, "boundary_top_x": "fixed",
@@ -47,9 +45,9 @@ class Strip(unittest.TestCase):
         """The exit code and adapt.yaml."""
         output = self.folder / f"{truth}_{own}"
         done = subprocess.run(
-            [sys.executable, "-m", "slipscale.adapting.adapt", self.folder / truth, self.folder / own, "--output", output,
+            [os.environ["SLIPSCALE_COMMAND"], "adapt", self.folder / truth, self.folder / own, "--output", output,
              "--program", os.environ["SLIPSCALE_SLIDE"], "--window", "200", "400", *words],
-            env={**os.environ, "PYTHONPATH": str(RUNS)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.assertIn(done.returncode, (0, 1), done.stdout)
         return done.returncode, yaml.safe_load((output / "adapt.yaml").read_text())
 

@@ -156,8 +156,17 @@ class Files(Homogenising):
         # Seam nodes are written twice: no cell is drawn across the block.
         widths = np.concatenate([np.ptp(mesh.points[block.data], axis=1).max(axis=1) for block in mesh.cells])
         self.assertLess(widths.max(), 0.3 * SIDE)
-        for name in ("region", "localisation", "stress_xx", "stress_yy", "stress_xy"):
-            self.assertIn(name, mesh.cell_data)
+        components = ("xx", "yy", "xy")
+        pairs = {f"{name}_{one}_{other}" for name in ("localisation", "stress") for one in components
+                 for other in components}
+        self.assertLessEqual(pairs | {"region", "area"}, mesh.cell_data.keys())
+        tensors = datasets(self.folder / "out" / "localization.h5")
+        for i, local in enumerate(components):
+            for j, macroscopic in enumerate(components):
+                np.testing.assert_array_equal(np.concatenate(mesh.cell_data[f"localisation_{local}_{macroscopic}"]),
+                                              tensors["cell/localisation"][:, i, j])
+                np.testing.assert_array_equal(np.concatenate(mesh.cell_data[f"stress_{macroscopic}_{local}"]),
+                                              tensors["cell/stress_" + macroscopic][:, i])
 
     def test_help(self):
         outcome = self.homogenize("-help", ranks=2)

@@ -41,7 +41,7 @@ class Refinement(studies.StudyCase):
         self.assertEqual(verdicts["coulomb", "velocity"]["verdict"], "no convergence")
         self.assertEqual(verdicts["T300", "velocity"]["verdict"], "converges")
         self.assertGreater(float(verdicts["T300", "velocity"]["order"]), 1)
-        # Friction cannot exceed its coefficient on average; the frequency is that of the block's squeal (science, 8).
+        # Friction cannot exceed its coefficient on average; the frequency is that of the block's squeal.
         for friction, frequency in zip(self.rows("cycle", "T600", "friction"), self.rows("cycle", "T600", "frequency")):
             self.assertTrue(0.4 < float(friction["value"]) < 0.505, friction)
             self.assertAlmostEqual(float(frequency["value"]) / 382e3, 1, delta=0.05)

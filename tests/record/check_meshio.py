@@ -28,9 +28,10 @@ def check(folder):
             assert np.allclose(on_points["u"], u, atol=1e-13), "u"
             assert np.allclose(on_points["v"], -u, atol=1e-13), "v"
             centre = centres(points, cells)
-            stress = np.concatenate(on_cells["stress"])
-            assert np.allclose(stress[:, :2], centre, atol=1e-13), "stress is not that of its cell"
-            assert np.all(stress[:, 2] == time)
+            stress = np.concatenate(on_cells["stress"]).reshape(-1, 3, 3)
+            assert np.allclose(stress[:, [0, 1], [0, 1]], centre, atol=1e-13), "stress is not that of its cell"
+            assert np.all(stress[:, 0, 1] == time) and np.all(stress[:, 1, 0] == time)
+            assert np.all(stress[:, 2] == 0) and np.all(stress[:, :, 2] == 0)  # nothing is known of zz
             region = np.concatenate(on_cells["region"])
             assert set(region) == {0, 1}
     assert times == [0.0, 0.1, 1.0 / 3], times

@@ -4,6 +4,7 @@
 
 #include "analytic_fields.hpp"
 #include "read_back.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/fields_file.hpp"
@@ -19,12 +20,6 @@ using Everything = std::map<std::string, read_back::Dataset>;
 const Box part{{0.45, 0.08}, {1.2, 0.42}}, all_of_it{{-1, -1}, {2, 2}};
 const FieldQuantities quantities{.u = true, .v = true, .stress = true, .strain = true};
 
-int rank_in(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
-
 Everything written(MPI_Comm comm, const std::string& mesh_file, const std::optional<Box>& box) {
   MeshSource source;
   source.file = mesh_file;
@@ -36,7 +31,7 @@ Everything written(MPI_Comm comm, const std::string& mesh_file, const std::optio
   for (double& e : strain) e *= 1e-9;
   file.write(1e-3, f.u.data(), f.v.data(), f.stress.data(), strain.data());
   file.close();
-  return rank_in(comm) == 0 ? read_back::everything(folder.path("fields.h5")) : Everything{};
+  return is_root(comm) ? read_back::everything(folder.path("fields.h5")) : Everything{};
 }
 
 /// Points of each cell, whatever the cells are.
@@ -82,7 +77,7 @@ TEST(FieldsBox, HoldsItsPartOfTheWhole) {
     const std::string path = mesh_file(each);
     const Everything whole = written(PETSC_COMM_WORLD, path, std::nullopt);
     const Everything found = written(PETSC_COMM_WORLD, path, part);
-    if (rank_in(PETSC_COMM_WORLD) != 0) continue;
+    if (!is_root(PETSC_COMM_WORLD)) continue;
     const auto cells = cells_of(found), all = cells_of(whole);
     std::set<std::size_t> used;
     std::size_t next = 0;
@@ -111,7 +106,7 @@ TEST(FieldsBox, HoldsTheSameDataOnAnyNumberOfRanks) {
   for (const auto& each : analytic::cases()) {
     const std::string path = mesh_file(each);
     const Everything found = written(PETSC_COMM_WORLD, path, part);
-    if (rank_in(PETSC_COMM_WORLD) == 0) expect_same(found, written(PETSC_COMM_SELF, path, part), each.name);
+    if (is_root(PETSC_COMM_WORLD)) expect_same(found, written(PETSC_COMM_SELF, path, part), each.name);
   }
 }
 
@@ -120,7 +115,7 @@ TEST(FieldsBox, AroundTheBodyChangesNothing) {
     const std::string path = mesh_file(each);
     const Everything whole = written(PETSC_COMM_WORLD, path, std::nullopt);
     const Everything found = written(PETSC_COMM_WORLD, path, all_of_it);
-    if (rank_in(PETSC_COMM_WORLD) == 0) expect_same(found, whole, each.name);
+    if (is_root(PETSC_COMM_WORLD)) expect_same(found, whole, each.name);
   }
 }
 
@@ -132,9 +127,9 @@ TEST(FieldsBox, KnowsTheCellsThatItHolds) {
   for (int k = 0; k < 9; ++k) {
     const double x = (k + 0.5) / 9;
     const Everything column = written(PETSC_COMM_WORLD, path, Box{{x - 0.5 / 9, 0.1}, {x + 0.5 / 9, 0.2}});
-    if (rank_in(PETSC_COMM_WORLD) == 0) kinds.insert(column.at("mesh/cells").shape.size());
+    if (is_root(PETSC_COMM_WORLD)) kinds.insert(column.at("mesh/cells").shape.size());
   }
-  if (rank_in(PETSC_COMM_WORLD) == 0) {
+  if (is_root(PETSC_COMM_WORLD)) {
     EXPECT_EQ(whole.at("mesh/cells").shape.size(), 1u);  // a stream
     EXPECT_TRUE(kinds.contains(2));
   }
@@ -142,8 +137,7 @@ TEST(FieldsBox, KnowsTheCellsThatItHolds) {
 
 /// What a file tells of a mesh is enough to write it again, cells shared out in any way.
 TEST(MeshImage, OfAGridIsTheMeshItCameFrom) {
-  int rank = rank_in(PETSC_COMM_WORLD), ranks = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
   for (const auto& each : analytic::cases()) {
     // Each rank by itself, as a grid is held whole by all.
     const Everything whole = [&] {

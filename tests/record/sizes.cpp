@@ -23,9 +23,30 @@ TEST(Estimate, OfASeriesIsNearItsSize) {
     file.append(u, row.data());
     file.end_row();
   }
+  const double predicted = file.bytes(3000);
   file.close();
-  const double predicted = series_bytes(3000, static_cast<double>(file.row_bytes()), 2);
   EXPECT_NEAR(predicted / static_cast<double>(std::filesystem::file_size(path)), 1.0, 0.05);
+}
+
+/// Ten thousand points for a few rows: headers and the smallest chunks count.
+TEST(Estimate, OfManyDatasetsIsNearTheirSize) {
+  const std::string path = testing_support::scratch("many.h5");
+  SeriesFile file(path, 0.5, 20);
+  const double place[] = {1, 2};
+  std::vector<int> ids;
+  for (int k = 0; k < 1000; ++k) {
+    const std::string point = "/points/" + std::to_string(k) + "/";
+    file.constant(point + "x", place, {2}, "m", "where the point is in the undeformed body");
+    ids.push_back(file.add(point + "u", {2}, "m", "displacement"));
+  }
+  const double predicted = file.bytes(20);
+  for (int n = 0; n < 20; ++n) {
+    for (const int id : ids) file.append(id, place);
+    file.end_row();
+  }
+  file.close();
+  EXPECT_EQ(file.fault(), "");
+  EXPECT_NEAR(predicted / static_cast<double>(std::filesystem::file_size(path)), 1.0, 0.2);
 }
 
 TEST(Estimate, OfFieldsIsNearTheirSize) {

@@ -110,3 +110,51 @@ TEST(Peaks, DriftIsPassedOver) {
   for (std::size_t k = 0; k < series.size(); ++k) series[k] += 10.0 * static_cast<double>(k) / 4000;
   EXPECT_NEAR(dominant_frequency(welch(series, interval, 1000)), 50e3, 20);
 }
+
+/// A hump of noise around 100 kHz, 30 kHz wide, and a line at 300 kHz: two peaks, not a comb of them.
+TEST(Peaks, OfOneHumpAreListedOnce) {
+  std::vector<double> series = white_noise(20000, 1.0);
+  double before = 0, last = 0;
+  const double turn = 2 * std::numbers::pi * 100e3 * interval,
+               damping = 1 - std::numbers::pi * 30e3 * interval;
+  for (double& value : series) {  // a damped oscillator driven by noise
+    value += 2 * damping * std::cos(turn) * last - damping * damping * before;
+    before = last;
+    last = value;
+  }
+  const auto line = sinusoid(20000, 300e3, 20.0);
+  for (std::size_t k = 0; k < series.size(); ++k) series[k] += line[k];
+  const auto found = peaks(welch(series, interval), 2);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].frequency, 300e3, 100);
+  EXPECT_NEAR(found[1].frequency, 100e3, 20e3);
+}
+
+TEST(Peaks, ALineBelowTheResolutionIsNotDominant) {
+  auto series = sinusoid(4000, 50e3, 1.0);
+  const auto slow = sinusoid(4000, 0.7 / (2000 * interval), 5.0);
+  for (std::size_t k = 0; k < series.size(); ++k) series[k] += slow[k];
+  const auto spectrum = welch(series, interval);
+  EXPECT_EQ(dominant_frequency(spectrum), 0);
+  ASSERT_FALSE(peaks(spectrum, 1).empty());
+}
+
+/// 430 kHz and 50 kHz recorded every tenth sample of 1 MHz, 100 000 rows a second: 430 kHz shows at 30 kHz.
+TEST(Aliases, AreFoundInADenserRecord) {
+  auto dense = sinusoid(40000, 430e3 * 1e-6 / interval, 1.0);
+  const auto slow = sinusoid(40000, 20e3 * 1e-6 / interval, 0.5);
+  std::vector<double> sparse;
+  for (std::size_t k = 0; k < dense.size(); ++k) {
+    dense[k] += slow[k];
+    if (k % 10 == 0) sparse.push_back(dense[k]);
+  }
+  const auto found = peaks(welch(sparse, 1e-5), 2);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].frequency, 30e3, 50);
+  EXPECT_NEAR(found[1].frequency, 20e3, 50);
+  const auto wrong = aliases(found, 1e5, welch(dense, 1e-6));
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NEAR(wrong[0].recorded, 30e3, 50);
+  EXPECT_NEAR(wrong[0].source, 430e3, 50);
+  EXPECT_TRUE(aliases(peaks(welch(dense, 1e-6), 2), 1e6, welch(dense, 1e-6)).empty());
+}

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/solid/element.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -39,9 +40,7 @@ const std::vector<Eigen::Matrix3d> stiffness{isotropic_stiffness(30e9, 0.3), iso
 
 struct Share : RankShare {
   explicit Share(const PlaneGrid& grid) {
-    int rank = 0, ranks = 1;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+    const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
     static_cast<RankShare&>(*this) = rank_share(static_cast<std::size_t>(grid.cells()), rank, ranks);
   }
 };

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 
@@ -55,9 +56,7 @@ StressFields fields_of(const std::array<Stress, 3>& stress) { return {stress[0],
 /// Every n-th cell of a grid, this rank's on n ranks, and the stress there.
 struct Share {
   Share(const Grid& grid, const std::array<Stress, 3>& whole) {
-    int rank = 0, ranks = 1;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+    const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
     for (std::size_t c = static_cast<std::size_t>(rank); c < grid.cells.area.size();
          c += static_cast<std::size_t>(ranks)) {
       cells.area.push_back(grid.cells.area[c]);

@@ -5,6 +5,7 @@
 
 #include "grids.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/hdf5.hpp"
 #include "slipscale/relocalize/fields_reader.hpp"
@@ -16,12 +17,6 @@ using namespace slipscale;
 using namespace slipscale::testing_support;
 
 namespace {
-
-int rank_of_world() {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  return rank;
-}
 
 /// A file as others write it, made by rank 0.
 class MadeFile {
@@ -107,7 +102,7 @@ void write_fields(const std::string& path, const PlaneGrid& grid, bool with_stra
 /// A folder that every rank sees, with what rank 0 writes into it.
 std::string folder_with(const std::function<void(const std::string&)>& write) {
   const std::string folder = scratch("run");
-  if (rank_of_world() == 0) {
+  if (is_root(PETSC_COMM_WORLD)) {
     std::filesystem::create_directories(folder);
     write(folder);
   }
@@ -145,9 +140,8 @@ TEST(FieldsReader, ReadsMeshTimesAndAnyCells) {
       expect_same(fields.grid(), grid);
       EXPECT_EQ(fields.times(), (std::vector<double>{0.5, 0.75}));
       EXPECT_EQ(fields.path(), folder + "/fields.h5");
-      int ranks = 1;
-      MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
-      const RankShare mine = rank_share(grid.region.size(), rank_of_world(), ranks);
+      const int ranks = ranks_of(PETSC_COMM_WORLD);
+      const RankShare mine = rank_share(grid.region.size(), rank_of(PETSC_COMM_WORLD), ranks);
       std::vector<PlaneTensor> values(mine.count());
       for (int frame = 0; frame < 2; ++frame)
         for (const auto& [quantity, seed] : {std::pair("stress", 10), std::pair("strain", 20)}) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "scenes.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;
@@ -45,9 +46,7 @@ Given with(Given given, const Given& more) {
 
 std::string written(const std::string& text) {
   const std::string path = scratch("effective.yaml");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) std::ofstream(path) << text;
+  if (is_root(PETSC_COMM_WORLD)) std::ofstream(path) << text;
   MPI_Barrier(PETSC_COMM_WORLD);
   return path;
 }

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <vector>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale::testing_support {
 namespace {
 
@@ -200,9 +202,7 @@ class Writer {
 }  // namespace
 
 void write_block(const Block& block, const std::string& path) {
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) Writer(block).write(path);
+  if (is_root(PETSC_COMM_WORLD)) Writer(block).write(path);
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 

@@ -1,13 +1,14 @@
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
+#include "slipscale/base/parallel.hpp"
+
 /// Runs the tests of one executable on every rank; only rank 0 prints, unless another rank fails.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   MPI_Init(&argc, &argv);
   if (PetscInitialize(&argc, &argv, nullptr, nullptr)) return 1;
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int rank = slipscale::rank_of(MPI_COMM_WORLD);
   auto& listeners = testing::UnitTest::GetInstance()->listeners();
   class Quiet : public testing::EmptyTestEventListener {
     void OnTestPartResult(const testing::TestPartResult& result) override {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
     listeners.Append(new Quiet);
   }
   int failed = RUN_ALL_TESTS();
+  if (testing::UnitTest::GetInstance()->test_to_run_count() == 0) failed = 1;  // nothing run is no success
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   if (PetscFinalize()) failed = 1;
   MPI_Finalize();

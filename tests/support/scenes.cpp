@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale::testing_support {
 
 Mesh block_mesh(const Block& block, Partitioner partitioner, int refine) {
@@ -41,7 +43,7 @@ double value_near(const Mesh& mesh, const Vector2* field, const Vector2& x, int 
     double distance;
     int rank;
   } best{1e300, 0};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &best.rank);
+  best.rank = rank_of(PETSC_COMM_WORLD);
   const int own_rank = best.rank;
   int nearest = -1;
   for (int i = 0; i < mesh.nodes.owned; ++i) {

@@ -47,8 +47,8 @@ struct StatusCount {
   bool all_seen() const { return open > 0 && stick > 0 && slip > 0; }
 };
 
-/// Scene R, of which a separate serial prototype has figures: a homogeneous block pressed at its top on a
-/// fast surface. Units SI.
+/// Scene R, of which tests/verification/second_program.py has figures: a homogeneous block pressed at its top
+/// on a fast surface. Units SI.
 Scene scene_r();
 Material scene_r_material();
 

@@ -87,8 +87,8 @@ Impact unit_impact(double phase, int elements) {
 }  // namespace
 
 /// Exact wave, at .9 of the limit: p = ρ c_d v0 within 1e-3 (over the middle of the contact, where
-/// the ringing of the fronts has passed), last contact at 2L/c_d within 1 %, rebound .9947 v0 in place of v0.
-/// By the phase of the first contact in its step the rebound varies by 4e-4.
+/// the ringing of the fronts has passed), last contact at 2L/c_d within 1 %, rebound v0 within 1 %: what it
+/// lacks is the subject of the next test.
 TEST(Bars, ImpactHasThePressureAndDurationOfTheWave) {
   double pressure = 0, length = 0, rebound = 0, impulse = 0;  // largest deviations
   const auto farthest = [](double& most, double deviation) {
@@ -98,20 +98,19 @@ TEST(Bars, ImpactHasThePressureAndDurationOfTheWave) {
     const Impact found = unit_impact(phase, 200);
     farthest(pressure, worst(found, 0.1 * duration, 0.9 * duration, [](double) { return wave_speed * v0; }));
     farthest(length, found.last / duration - 1);
-    farthest(rebound, found.velocity / v0 - 0.9947);
+    farthest(rebound, found.velocity / v0 - 1);
     farthest(impulse, found.impulse / (2 * v0) - 1);
     EXPECT_NEAR(found.impulse, v0 + found.velocity, 1e-10 * v0) << phase;  // momentum
   }
   EXPECT_LE(pressure, 1e-3);
   EXPECT_NEAR(length, 0, 0.01);
-  EXPECT_NEAR(rebound, 0, 5e-4);
+  EXPECT_NEAR(rebound, 0, 0.01);
   EXPECT_NEAR(impulse, 0, 1.0 / 200);
   const std::string topic = "Bar impact, 200 elements, worst of 4 phases";
   report({topic, "relative error of the pressure rho c_d v0", "<= 1e-3", format("{:.1e}", pressure), "",
           "wave solution"});
   report({topic, "contact time over 2L/c_d", "1 +- 0.01", format("{:.4f}", 1 + length), "", "wave solution"});
-  report({topic, "rebound over v0", "0.9947 +- 5e-4 (exact 1)", format("{:.4f}", 0.9947 + rebound), "",
-          "separate serial prototype"});
+  report({topic, "rebound over v0", "1 +- 0.01", format("{:.4f}", 1 + rebound), "", "wave solution"});
   report({topic, "impulse over 2 rho L v0", "1 +- h/L", format("{:.4f}", 1 + impulse), "", "wave solution"});
 }
 

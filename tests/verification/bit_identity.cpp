@@ -108,7 +108,7 @@ void compare(Shape shape, bool periodic) {
 
 }  // namespace
 
-/// Design, section 4: the same bits on any number of ranks, whoever owns a node.
+/// The same bits on any number of ranks, whoever owns a node.
 TEST(BitIdentity, Triangles) { compare(Shape::triangles, false); }
 TEST(BitIdentity, Quadrilaterals) { compare(Shape::quadrilaterals, false); }
 TEST(BitIdentity, MixedCells) { compare(Shape::mixed, false); }

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "slipscale/base/parallel.hpp"
+
 namespace slipscale::testing_support {
 namespace {
 
 Recipe discs(double height, double fraction, int elements, CellShape shape) {
   Recipe recipe;
-  recipe.room.block.high = {1, height};
+  recipe.room.block.upper = {1, height};
   recipe.room.periodic = {true, true};
   Family family;
   family.region = "inclusion";
@@ -42,10 +44,8 @@ Recipe random_discs(double fraction, double diameter, int elements, CellShape sh
 
 std::string drawn_file(const Recipe& recipe) {
   const std::string path = scratch("composite.msh");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   std::string fault;
-  if (rank == 0) {
+  if (is_root(PETSC_COMM_WORLD)) {
     try {
       GmshModel gmsh;
       compose(recipe, gmsh);

@@ -59,17 +59,17 @@ Local DiscCell::inside(const Vector2& x, int load_case, double reach) const {
 }
 
 const std::string topic = "Square array of discs, f .4, 30/80 GPa, local values",
-                  source = "semi-analytic, computed separately";
+                  source = "complex potentials, disc_arrays.py";
 
 /// Cells of 32, 64 and 128 elements.
 using Refinement = std::array<DiscCell, 3>;
 
 double order(const std::array<double, 3>& errors) { return 0.5 * std::log2(errors[0] / errors[2]); }
 
-/// Against the semi-analytic solution. The mean of a cell is off by O(h) from the strain at a point of it; a
-/// polynomial of degree 2 through the means within 4h of the centre is off by O(h²), as the discretisation
-/// is. The bound is the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and a quarter of it
-/// at 128.
+/// Against the exact fields (disc_arrays.py). The mean of a cell is off by O(h) from the strain at a point of
+/// it; a polynomial of degree 2 through the means within 4h of the centre is off by O(h²), as the
+/// discretisation is. The bound is the one asked of the moduli: .05 % (of E_xx, of σ_xx) at 64 elements, and
+/// a quarter of it at 128.
 void check_centre(const Refinement& cells, const std::string& elements) {
   constexpr double bound = 5e-4;
   const Vector2 centre{0.5, 0.5};
@@ -95,7 +95,7 @@ void check_centre(const Refinement& cells, const std::string& elements) {
           format("{:.4f}", shear[5]), shown, source});
 }
 
-/// Semi-analytic: σ_xx at θ = 0, the same on either side. Extrapolated from the inclusion's cells within
+/// σ_xx at θ = 0 (disc_arrays.py), the same on either side. Extrapolated from the inclusion's cells within
 /// R = 6h by a polynomial of degree 2; the field is smooth there, and the mean strain of the cells at the
 /// interface is off by O(h) times its gradient, 2.8 GPa per radius: h/r · 2.8 GPa = .06 GPa at 128 elements.
 void check_interface(const Refinement& cells, const std::string& elements) {

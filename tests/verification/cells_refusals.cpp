@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "cells_checks.hpp"
+#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;
@@ -21,9 +22,7 @@ Mesh block(bool along_x, bool along_y) {
 /// Two squares of 2 × 2 cells, 1 m apart.
 Mesh two_squares() {
   const std::string file = scratch("apart.msh");
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  if (rank == 0) {
+  if (is_root(PETSC_COMM_WORLD)) {
     std::ofstream out(file);
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"matrix\"\n$EndPhysicalNames\n"
            "$Nodes\n18\n";

@@ -105,35 +105,6 @@ TEST(Extremes, CoefficientOfFriction) {
   report({topic, "mu = 0: largest traction, Pa", "0", format("{:g}", frictionless), "", "Coulomb's law"});
 }
 
-/// A separate prototype left 90 % open at μ = 2; its mesh and window are not known. Here
-/// the leading corners jam: they stick, move with the surface, u = Vt, and the rest is open. That is what the
-/// equations of small strain say, far beyond their validity.
-TEST(Extremes, MostIsOpenAtACoefficientOfTwo) {
-  constexpr double dt = 5e-9, end = 100e-6;
-  Block block = pressed_block();
-  block.nx = block.ny = 20;
-  const Mesh mesh = block_mesh(block);
-  const Model model(mesh, {scene_r_material()}, Model::Storage::full);
-  Scene scene = scene_r();
-  scene.friction.coefficient = 2;
-  SlidingBody body(PETSC_COMM_WORLD, model, scene, dt);
-  double length[2] = {0, 0};  // open, all
-  for (long n = 0; n < std::lround(end / dt); ++n) {
-    body.advance(false);
-    if (body.time() < 0.625 * end) continue;
-    const ContactNodes& contact = body.contact();
-    for (int k = 0; k < contact.size(); ++k) {
-      length[1] += contact.tributary_length[k];
-      if (contact.status[k] == ContactStatus::open) length[0] += contact.tributary_length[k];
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, length, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  EXPECT_NEAR(length[0] / length[1], 0.9, 0.1);
-  report({"Coefficient of friction 0 to 10", "scene R, h = .25 mm, mu = 2: open part, 62 to 100 us",
-          "0.9 +- 0.1", format("{:.2f}", length[0] / length[1]), "",
-          "prototype, mesh and window not stated"});
-}
-
 /// A regularised traction differs from Coulomb's by the part T/Δt of a change of pressure where T is short,
 /// and is the part t/T of it where T is long. The latter for the stored strength only: with the instantaneous
 /// threshold a node that once stuck keeps its traction when T is long.

@@ -175,7 +175,4 @@ TEST_F(ExtremeSteps, InContact) {
   }
   group.report_worst();
   EXPECT_NEAR(friction[1] / friction[0], 1, 0.1);
-  report({topic, "1.001, in contact, undamped: mean friction over 100 us",
-          format("{:.3f} at .999", friction[0]), format("{:.3f}", friction[1]), "",
-          "looks plausible: the step must be checked"});
 }

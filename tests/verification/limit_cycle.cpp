@@ -16,7 +16,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-constexpr const char* prototype = "separate serial prototype";
+constexpr const char* prototype = "second program, second_program.py";
 
 /// Index of M, the central contact node, among those of this rank; −1 on the others.
 int central_contact_node(const SlidingBody& body) {
@@ -156,7 +156,7 @@ void expect(const std::string& quantity, const std::vector<double>& expected,
           joined(found, digits), "", prototype});
 }
 
-constexpr const char* paper = "paper, Figure 2; separate serial prototype";
+constexpr const char* paper = "the paper, Figure 2 (its claim; the numbers are ours)";
 constexpr const char* undamped_topic = "Undamped scene R, 10 x 5 mm: v_M over 20-40 us";
 constexpr const char* undamped_quantity =
     "relative L2 distance to h = 0.0625 mm, h = 0.25 / 0.125 / 0.1 mm, ";
@@ -181,7 +181,7 @@ void expect_convergence(const std::string& law, double relaxation_time) {
 
 }  // namespace
 
-/// Averages of a separate serial prototype: h = .25, .125, .1 mm. Friction and amplitude are held to the
+/// Averages that second_program.py finds, h = .25, .125, .1 mm. Friction and amplitude are held to the
 /// bounds of the sustained instability (.5 and 1 %), fractions to the last printed digit, the frequency to
 /// .02 bins of 13.3 kHz, to which its interpolation is good.
 TEST(SceneRLimitCycle, AgreesWithTheReference) {
@@ -202,10 +202,7 @@ TEST(SceneRLimitCycle, AgreesWithTheReference) {
 }
 
 /// The paper's claim (Figure 2) in numbers: without bulk damping Coulomb, and a relaxation shorter than the
-/// mesh resolves, do not converge under refinement; the regularised law does. The distances of a
-/// separate prototype for 30 ns (.28/.055/.036) belong to a friction update that holds p_n over the step,
-/// first order in Δt/T; with that update in place of the second-order one they come out here as
-/// well.
+/// mesh resolves, do not converge under refinement; the regularised law does.
 TEST(UndampedRefinement, CoulombDoesNotConverge) { expect_no_convergence("Coulomb", 0); }
 TEST(UndampedRefinement, TooShortARelaxationDoesNotConverge) { expect_no_convergence("T = 10 ns", 10e-9); }
 TEST(UndampedRefinement, RegularisedConverges) {

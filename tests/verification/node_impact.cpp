@@ -4,6 +4,7 @@
 
 #include "report.hpp"
 #include "scenes.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 
 using namespace slipscale;
@@ -27,7 +28,7 @@ double farthest(const std::vector<double>& values, double expected) {
     double distance;
     int rank;
   } most{-1, 0};
-  MPI_Comm_rank(PETSC_COMM_WORLD, &most.rank);
+  most.rank = rank_of(PETSC_COMM_WORLD);
   double value = expected;
   for (const double x : values)
     if (std::abs(x - expected) > most.distance) {

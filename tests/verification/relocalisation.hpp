@@ -2,8 +2,9 @@
 
 #include <filesystem>
 
-#include "../cell/grids.hpp"
 #include "cells_checks.hpp"
+#include "grids.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/homogenize/localisation_file.hpp"
 #include "slipscale/relocalize/localisation_reader.hpp"
 #include "slipscale/relocalize/relocalisation.hpp"
@@ -35,9 +36,7 @@ inline PlaneGrid macro_block(double width, double height) {
 /// Relocalised stress of all targets, on every rank: each computes its share.
 inline Tensors relocalised(const LocalisationTensors& tensors, const PlaneGrid& macro, const Targets& targets,
                            const Tensors& macro_strain) {
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
+  const int rank = rank_of(PETSC_COMM_WORLD), ranks = ranks_of(PETSC_COMM_WORLD);
   const RankShare mine = rank_share(targets.sites.size(), rank, ranks);
   Relocalisation relocalize(tensors, macro, Recovery::nodal,
                             std::span(targets.sites).subspan(mine.begin, mine.count()));

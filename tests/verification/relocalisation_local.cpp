@@ -11,7 +11,7 @@ namespace {
 
 constexpr double radius = 0.35682482323055424;  // of a disc of area .4
 const std::string topic = "Relocalised square array of discs, f .4, 30/80 GPa, tiled",
-                  source = "semi-analytic, computed separately";
+                  source = "complex potentials, disc_arrays.py";
 
 /// The array tiled over a block of 2 by 2 m with its corner nowhere special.
 struct TiledArray {
@@ -54,10 +54,10 @@ double order(const std::array<double, 3>& errors) { return 0.5 * std::log2(error
 
 }  // namespace
 
-/// Against the semi-analytic solution: E_xx = 1 and E_xy = 1 (γ = 2). Bounds and orders are those of the
-/// localisation tensors themselves in cells_local.cpp: second order at the centre, .05 % at 64 elements and a
-/// quarter of it at 128; first order at the interface, where the mean over a cell is off by h/r times the
-/// gradient 2.8 GPa a radius.
+/// Against the exact fields (disc_arrays.py): E_xx = 1 and E_xy = 1 (γ = 2). Bounds and orders are those of
+/// the localisation tensors themselves in cells_local.cpp: second order at the centre, .05 % at 64 elements
+/// and a quarter of it at 128; first order at the interface, where the mean over a cell is off by h/r times
+/// the gradient 2.8 GPa a radius.
 TEST(Relocalisation, HasTheReferenceValuesInADisc) {
   std::array<double, 3> centre_errors{}, interface_errors{};
   Eigen::Vector3d middle, edge;

@@ -35,7 +35,7 @@ Reading scene_r_at(double spacing, double step, double time, Partitioner partiti
 void compare(const std::string& quantity, double found, double expected) {
   EXPECT_NEAR(found / expected, 1, 1e-6) << quantity;
   report({"Scene R before saturation", quantity, format("{:.10g}, relative +- 1e-6", expected),
-          format("{:.10g}", found), "", "separate serial prototype"});
+          format("{:.10g}", found), "", "second program, second_program.py"});
 }
 
 void compare(const std::string& when, const Reading& found, const Reading& expected) {
@@ -47,8 +47,7 @@ void compare(const std::string& when, const Reading& found, const Reading& expec
 
 }  // namespace
 
-/// Before saturation; figures of a separate serial prototype, printed there with 10
-/// digits.
+/// Before saturation; figures of second_program.py, as it prints them.
 TEST(SceneR, AgreesWithTheReferenceAtTenMicroseconds) {
   compare("h .25 mm, 10 us", scene_r_at(0.25e-3, 5e-9, 10e-6),
           {3.716186611e-7, 0.06998790, 4476.373, 10365.766});

@@ -14,7 +14,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-constexpr const char* prototype = "separate serial prototype";
+constexpr const char* prototype = "second program, second_program.py";
 constexpr const char* slip_separated = "Sustained instability S1, slip-separated";
 constexpr const char* stick_slip = "Sustained instability S2, stick-slip-separated";
 
@@ -69,7 +69,7 @@ void expect(const char* topic, const std::string& quantity, const std::vector<do
 
 /// A bound says something only if the averages themselves scatter less: over either half of the window and
 /// for other seeds they are to stay within a third of the tightest bound.
-void expect_little_scatter(const char* topic, Strip strip) {
+void expect_little_scatter(Strip strip) {
   const StripMeans mean = run_strip(strip).whole;
   double scatter = 0;
   const auto compare = [&](const StripMeans& other) {
@@ -84,14 +84,11 @@ void expect_little_scatter(const char* topic, Strip strip) {
     compare(outcome.late);
   }
   EXPECT_LE(scatter, load_bound.value / 3);
-  report({topic, "scatter of friction, load and power over half windows and seeds x 0.5 / 1 / 2, nx = 64, %",
-          "at most 0.1, a third of the tightest bound", format("{:.4f}", 100 * scatter), "",
-          "what the averages can resolve"});
 }
 
 }  // namespace
 
-/// Against a separate serial prototype: averages over t in [200, 400]; every node, every step.
+/// Against second_program.py: averages over t in [200, 400]; every node, every step.
 TEST(Sustained, SlipSeparatedRegime) {
   const auto means = on_three_meshes(s1());
   expect(slip_separated, "mean friction T/N, nx = 32 / 64 / 128", {0.4444, 0.4468, 0.4469},
@@ -109,7 +106,7 @@ TEST(Sustained, SlipSeparatedRegime) {
          column(on_three_meshes(halved), &StripMeans::friction), friction_bound);
 }
 
-TEST(Sustained, SlipSeparatedScatter) { expect_little_scatter(slip_separated, s1()); }
+TEST(Sustained, SlipSeparatedScatter) { expect_little_scatter(s1()); }
 
 /// Power into the body against the relaxation time: the slope that an adapted T is found by.
 TEST(Sustained, PowerFallsWithTheRelaxationTime) {
@@ -141,7 +138,7 @@ TEST(Sustained, StickSlipSeparatedRegime) {
          column(on_three_meshes(halved), &StripMeans::friction), friction_bound);
 }
 
-TEST(Sustained, StickSlipSeparatedScatter) { expect_little_scatter(stick_slip, s2()); }
+TEST(Sustained, StickSlipSeparatedScatter) { expect_little_scatter(s2()); }
 
 /// Once nodes stick, the paper's threshold drifts with the step.
 TEST(Sustained, InstantaneousThresholdDriftsWithTheStep) {
@@ -167,8 +164,5 @@ TEST(Sustained, AveragesDoNotSettleWithoutBulkDamping) {
     strip.nx = nx;
     load.push_back(run_strip(strip).whole.load);
   }
-  const double change = std::abs(load[1] / load[0] - 1);
-  EXPECT_GT(change, 10 * load_bound.value);
-  report({stick_slip, "change of the mean load from nx = 64 to 128 without bulk damping, %",
-          "above 3: does not settle", format("{:.0f}", 100 * change), "", prototype});
+  EXPECT_GT(std::abs(load[1] / load[0] - 1), 10 * load_bound.value);
 }

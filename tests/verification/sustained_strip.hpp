@@ -8,7 +8,7 @@
 
 namespace slipscale::testing_support {
 
-/// Sustained frictional instability of a homogeneous slab, as a separate serial prototype ran it: a strip of
+/// Sustained frictional instability of a homogeneous slab, as second_program.py runs it: a strip of
 /// length 2π, periodic in x, its top held, pressed with p0 = 1e-4 G. H = 2, c_s = ρ = G = 1, ν = .3, μ = .5.
 struct Strip {
   int nx = 64;

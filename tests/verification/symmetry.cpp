@@ -21,7 +21,7 @@ std::vector<Case> cases() {
           with_inclusion(landing_case(false))};
 }
 
-constexpr double rounding = 1e-10;  ///< a separate prototype has 2e-13 for the mirror, 1e-12 for units
+constexpr double rounding = 1e-10;  ///< grown over the run; a defect of the method would be 1e-3
 const char* const topic = "Symmetry and similarity, before saturation";
 
 /// The largest difference over all cases between a run and the run `other` makes of the same case.

@@ -1,9 +1,9 @@
-"""Runs every verification test and writes what they found as a Markdown table.
+"""Runs every verification test once and writes what they found as a Markdown table.
 
-    /usr/bin/python3 tests/verification/table.py [build folder, default build/release] [--into README.md]
+    python3 tests/verification/table.py [build folder, default build/release] [--into tests/verification/README.md]
 
 Without --into the table goes to standard output; with it, between the two `verification table` comments of that
-file. A row that ranks disagree on appears once for each finding, with its ranks. Exit code 1 when a test fails.
+file. Exit code 1 when a test fails.
 """
 
 import argparse
@@ -18,26 +18,19 @@ BEGIN, END = "<!-- verification table: begin -->", "<!-- verification table: end
 
 
 def findings(log):
-    """Rows in the order of the tests, each with the sorted rank counts that found it."""
-    ranks, printed, rows = {}, [], {}
-    for line in log.splitlines():
-        if started := re.match(r"^\s*Start\s+(\d+): \S+\.np(\d+)", line):
-            ranks[int(started[1])] = int(started[2])
-        elif row := ROW.match(line):
-            printed.append((int(row[1]), row[2]))
-    for test, row in sorted(printed, key=lambda each: each[0]):  # tests run side by side and end as they like
-        rows.setdefault(row, set()).add(ranks[test])
-    found = [(tuple(row.split(" | ")), sorted(on)) for row, on in rows.items()]
-    topics = list(dict.fromkeys(row[0] for row, _ in found))  # keep a case together
-    return sorted(found, key=lambda entry: topics.index(entry[0][0]))
+    """Rows in the order of the tests, those of one case together."""
+    printed = [(int(row[1]), row[2]) for row in map(ROW.match, log.splitlines()) if row]
+    printed.sort(key=lambda each: each[0])  # tests run side by side and end as they like
+    found = [tuple(row.split(" | ")) for row in dict.fromkeys(row for _, row in printed)]
+    topics = list(dict.fromkeys(row[0] for row in found))
+    return sorted(found, key=lambda row: topics.index(row[0]))
 
 
 def markdown(rows):
-    lines = ["| case | quantity | expected | found | order | ranks | source |", "|---|---|---|---|---|---|---|"]
+    lines = ["| case | quantity | expected | found | order | against |", "|---|---|---|---|---|---|"]
     last = None
-    for (topic, quantity, expected, found, order, source), on in rows:
-        shown = "" if topic == last else topic
-        lines.append(f"| {shown} | {quantity} | {expected} | {found} | {order} | {' '.join(map(str, on))} | {source} |")
+    for topic, *others in rows:
+        lines.append(" | ".join(["| " + ("" if topic == last else topic), *others]) + " |")
         last = topic
     return "\n".join(lines) + "\n"
 
@@ -47,7 +40,11 @@ def main():
     arguments.add_argument("build", nargs="?", default="build/release", type=pathlib.Path)
     arguments.add_argument("--into", type=pathlib.Path, help="file that holds the two comments")
     chosen = arguments.parse_args()
-    run = subprocess.run(["ctest", "--test-dir", chosen.build, "-L", "^verification$", "--verbose",
+    text = chosen.into.read_text() if chosen.into else ""
+    if chosen.into and (BEGIN not in text or END not in text):
+        sys.stderr.write(f"{chosen.into} lacks the comments '{BEGIN}' and '{END}': put them where the table belongs\n")
+        return 2
+    run = subprocess.run(["ctest", "--test-dir", chosen.build, "-L", "^verification$", "-LE", "^nightly$", "--verbose",
                           "--parallel", str(os.cpu_count())],
                          capture_output=True, text=True)
     rows = findings(run.stdout)
@@ -58,10 +55,6 @@ def main():
     if not chosen.into:
         print(table, end="")
         return 0
-    text = chosen.into.read_text()
-    if BEGIN not in text or END not in text:
-        sys.stderr.write(f"{chosen.into} lacks the comments '{BEGIN}' and '{END}': put them where the table belongs\n")
-        return 2
     before, rest = text.split(BEGIN, 1)
     chosen.into.write_text(f"{before}{BEGIN}\n{table}{END}{rest.split(END, 1)[1]}")
     return 0

@@ -41,4 +41,8 @@ std::string take_petsc_message();
 /// `UserError` with the text of the lowest such rank. Collective.
 void throw_together(MPI_Comm comm, const std::string& fault);
 
+/// The same with `RunError`: for what no option of the user's could have spared him, a full disk say.
+/// Collective.
+void stop_together(MPI_Comm comm, const std::string& fault);
+
 }  // namespace slipscale

@@ -21,7 +21,7 @@ struct Range {
 };
 
 namespace range {
-extern const Range any, positive, non_negative, at_least_one, poisson, unit;  // unit: 0 < x <= 1
+extern const Range any, positive, non_negative, at_least_one, unit;           // unit: 0 < x <= 1
 Range one_of(std::vector<std::string> words);                                 // exactly one of the words
 Range one_of_or_number(std::vector<std::string> words, const Range& number);  // `auto` or seconds, say
 }  // namespace range
@@ -56,7 +56,15 @@ struct Origin {
   int order = 0;      ///< 0: before all of these, in PETSc's own files and variables
   std::string place;  ///< "scene.yaml"
 };
-using Origins = std::map<std::string, Origin>;  ///< by the name as it was written last
+
+/// One option as the user wrote it.
+struct Written {
+  std::string name;                       ///< without dash
+  std::optional<std::string> value = {};  ///< none where nothing stands behind the option
+  Origin origin = {};
+  bool in_yaml = false;
+  std::string doubt = {};  ///< of a YAML file: the word in its value that YAML takes for more than a text
+};
 
 /// Why options have no effect in a scene, in words that complete a sentence.
 struct Idle {
@@ -76,12 +84,18 @@ struct Idle {
 /// makes idle is set aside instead, as a value that it repeats would be: a law on the command line overrules
 /// the constants of another law in the file. An option set aside counts as not given.
 ///
-/// All members are collective in effect: every rank sees the same database
-/// and throws the same error.
+/// An option that is declared and that no reader asks for or passes to `refuse_idle` is a mistake of the
+/// programmer, which `refuse_unread` reports (`std::logic_error`) in every run, whether it is given or not.
+///
+/// All members are collective in effect: every rank holds the same options and throws the same error.
 class Options {
  public:
-  /// Checks the PETSc options database against the schema as far as that is possible without a mesh.
-  Options(std::string program, Schema schema, Origins origins = {});
+  /// Takes what PETSc's database holds and nobody has read (it comes first) and then `written`, the last of
+  /// which has the last word, and checks it against the schema as far as that is possible without a mesh.
+  /// PETSc's database is limited to 512 options; `written` is not. `solvers` are the prefixes of PETSc's own
+  /// solvers in this program, "cell_": their options are PETSc's to read.
+  Options(std::string program, Schema schema, const std::vector<Written>& written = {},
+          std::vector<std::string> solvers = {});
 
   double real(const std::string& name) const;
   std::optional<double> find_real(const std::string& name) const;
@@ -92,6 +106,9 @@ class Options {
   bool flag(const std::string& name) const;
   std::vector<double> reals(const std::string& name) const;  ///< empty when absent
   bool given(const std::string& name) const;                 ///< on the command line or in a file
+
+  /// Every option that the user gave, declared or not, but none of PETSc's own; in their order.
+  const std::vector<std::string>& typed() const { return typed_; }
 
   /// Tells which names may stand for a placeholder: `know_names("region", {"matrix", "inclusion", "all"})`.
   /// An option like `-material_martix_young` then stops the run with the nearest known name. Names that
@@ -106,7 +123,8 @@ class Options {
   /// from the same place they contradict one another: UserError.
   void refuse_both(const std::string& one, const std::string& other) const;
 
-  /// Stops on any declared option that is given and that nobody has read. Call when the scene is read.
+  /// Stops on any declared option that is given and that nobody has read, and on names that no placeholder
+  /// takes. Call when the scene is read.
   void refuse_unread() const;
 
   /// What was set aside, one sentence each, for the user to see.
@@ -124,17 +142,25 @@ class Options {
     std::string filled;  ///< what stands for the placeholder
   };
   Match match(const std::string& name) const;
+  const Written* find(const std::string& name) const;
   std::optional<std::string> value(const std::string& name) const;
   std::string needed(const std::string& name) const;
-  void refuse_if_unknown(const std::string& name) const;
+  void take(const Written& entry);
+  void check(const Written& entry) const;
+  bool is_petsc(const std::string& name) const;
+  void refuse_if_unknown(const std::string& name, bool at_last) const;
+  void refuse_forgotten() const;
+  [[noreturn]] void refuse(const std::string& name, const std::string& sentence) const;
   Origin origin(const std::string& name) const;
   bool overruled(const std::string& name, const std::vector<std::string>& by, const std::string& why) const;
 
   std::string program_;
   Schema schema_;
+  std::vector<std::string> solvers_;
   std::map<std::string, std::vector<std::string>> names_;  ///< placeholder -> what may stand for it
-  std::vector<std::string> typed_;                         ///< given by the user, not read by PETSc itself
-  Origins origins_;
+  std::map<std::string, Written> given_;                   ///< by name: the entry that has the last word
+  std::vector<std::string> typed_;                         ///< every name in `given_`, in its order
+  mutable std::set<std::string> touched_;                  ///< the names that some reader knows of
   mutable std::map<std::string, std::string> effective_;
   mutable std::set<std::string> aside_;
   mutable std::vector<std::string> notes_;

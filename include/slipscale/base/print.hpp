@@ -10,6 +10,10 @@ namespace slipscale {
 /// Prints to standard output on rank 0 of PETSC_COMM_WORLD and flushes.
 void print(const std::string& text);
 
+/// The text with everything that begins a new line, in any alphabet, as a blank and other control characters
+/// as \x1b: what a name of the user may hold.
+std::string one_line(const std::string& text);
+
 /// Values into a text: `format("{:.3g} m", length)`. libfmt's, which checks the pattern when it is compiled;
 /// the standard library's std::format takes the same patterns.
 using fmt::format;

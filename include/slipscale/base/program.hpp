@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "slipscale/base/options.hpp"
 
@@ -13,7 +14,14 @@ struct Program {
   std::string purpose;  ///< one or two sentences, printed by `-help`
   Schema schema;
   std::function<void(Options& options)> run;  ///< on PETSC_COMM_WORLD
+  std::string commit = {};                    ///< of the sources; "" when unknown
+  std::vector<std::string> solvers = {};      ///< prefixes of the options of its PETSc solvers: "cell_"
+  std::vector<std::string> libraries = {};    ///< for `-version`, besides PETSc, MPI and HDF5: "gmsh 4.8.4"
 };
+
+/// To be called when the scene is read: refuses what is given and nobody has read, and prints what was set
+/// aside.
+void end_reading(const Options& options);
 
 /// Starts MPI and PETSc, reads the options (`-options_file_yaml` first, then the command line over it),
 /// answers `-help` and `-version`, runs the program and turns errors into exit codes: 0 done, 2 a mistake of

@@ -44,6 +44,23 @@ using Hdf5Attribute = Hdf5Handle<H5Aclose>;
 /// Stops HDF5 from printing its error stack; `hdf5` reports instead. Cheap, may be repeated.
 void keep_hdf5_messages();
 
+/// A new file, over an older one. A killed run must leave a readable file, and a running one must let readers
+/// in: the oldest format (files written with the latest were unreadable after a kill), no file locking,
+/// serial driver. It says at once where it comes from (`write_provenance`).
+Hdf5File create_file(const std::string& path);
+
+/// Attributes of the root group: program, version, commit (where built from git), date (UTC, of the start)
+/// and ranks. They stand apart from the datasets, which are the same on any number of ranks.
+void write_provenance(hid_t file);
+
+/// "fnv1a:" and 16 hexadecimal digits, as run.yaml and the root attribute mesh_checksum have it.
+std::string checksum_text(std::uint64_t checksum);
+
+/// Cuts a file of the serial driver off from the disk, after a write that failed: what HDF5 still wants to
+/// write, on closing at the latest, goes nowhere, so that the file stays as the last flush left it and HDF5
+/// does not stumble over its own half-done work when the program ends.
+void cut_off(hid_t file);
+
 /// Hands on the return value of an HDF5 function, or throws `LibraryError` "<what>: <HDF5's innermost
 /// message>" when it is negative: `hdf5(H5Dwrite(…), "cannot write /time of history.h5")`.
 hid_t hdf5(hid_t result, const std::string& what);
@@ -52,7 +69,7 @@ hid_t hdf5(hid_t result, const std::string& what);
 /// on device") where there is one.
 std::string hdf5_message();
 
-/// Writes a text as a fixed-length UTF-8 attribute. In a parallel file: collective.
+/// Writes a text as a fixed-length UTF-8 attribute.
 void write_attribute(hid_t object, const std::string& name, const std::string& value);
 /// Likewise a list of texts, one-dimensional.
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values);

@@ -16,7 +16,8 @@ struct MeshLayout {
 };
 
 /// Writes /mesh/coordinates [points, 2], /mesh/cells ([cells, 3], [cells, 4] or XDMF's mixed stream) and
-/// /mesh/region [cells] with the regions' names; /mesh/block [2, 2], the box of the whole. Collective.
+/// /mesh/region [cells] with the regions' names; /mesh/block [2, 2], the box of the whole. The
+/// root group gets the attribute mesh_checksum where there is a mesh file. Collective.
 MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image);
 
 /// What a group with its headers and attributes takes of a file, bytes, for predictions.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ class MeshImage {
   MeshImage(MPI_Comm comm, const PlaneGrid& grid, std::size_t begin, std::size_t end);
 
   Topology topology() const { return topology_; }
-  const Box& block() const { return block_; }  ///< of the whole mesh, m, where a box shows a part
+  std::uint64_t checksum() const { return checksum_; }  ///< of the mesh file; 0: there is none
+  const Box& block() const { return block_; }           ///< of the whole mesh, m, where a box shows a part
   const FileOrder& points() const { return points_; }
   const FileOrder& cells() const { return cells_; }
   const std::vector<int>& point_nodes() const {
@@ -71,6 +73,7 @@ class MeshImage {
   void add_cell(int place, int region, const std::vector<PetscInt>& points);
   void agree_on_topology(MPI_Comm comm);
 
+  std::uint64_t checksum_ = 0;
   Box block_;
   Topology topology_ = Topology::triangles;
   FileOrder points_, cells_;

@@ -13,16 +13,17 @@ namespace slipscale {
 ///
 /// Lives on one rank. Rows gather in memory and go to the disk in batches, all datasets by the same number of
 /// rows, so that a running job can be plotted and a killed one read: serial driver, default file format, no
-/// file locking. Nothing here throws, because the other ranks would wait for ever: a failure is kept in
-/// `fault`, which the caller shares with them (`throw_together`) when it suits, and after which all members
-/// do nothing.
+/// file locking. Room is set aside before each batch, so that a full disk, or a file that somebody removed,
+/// is found before HDF5 stumbles over it. Nothing here throws, because the other ranks would wait for ever: a
+/// failure is kept in `fault`, which the caller shares with them (`throw_together`) when it suits, and after
+/// which all members do nothing.
 class SeriesFile {
  public:
   enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
 
-  /// Creates the file, over an older one. The first row is written at once, then a
-  /// batch when `seconds` have passed since the last, or more where writing is slow.
-  explicit SeriesFile(std::string path, double seconds = 0.5);
+  /// Creates the file, over an older one. `expected_rows`: chunks need not be larger. The first row is
+  /// written at once, then a batch when `seconds` have passed since the last, or more where writing is slow.
+  explicit SeriesFile(std::string path, double seconds = 0.5, double expected_rows = 1e15);
   ~SeriesFile();
   SeriesFile(SeriesFile&&) = default;
   SeriesFile& operator=(SeriesFile&&) = delete;
@@ -32,9 +33,12 @@ class SeriesFile {
   int add(const std::string& path, const std::vector<hsize_t>& row_shape, const std::string& units,
           const std::string& description, Storage storage = Storage::real);
 
-  /// Writes what does not grow, at once: `values` has the given shape.
+  /// What does not grow, written with the first row: `values` has the given shape. Before the first row.
   void constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
                 const std::string& units, const std::string& description);
+
+  /// A text about the whole file, an attribute of its root group. Before the first row.
+  void about(const std::string& name, const std::string& text);
 
   /// One row of a quantity; every quantity must be given one before `end_row`.
   void append(int id, const double* row);
@@ -48,6 +52,8 @@ class SeriesFile {
   /// Writes the rest and closes the file.
   void close();
 
+  /// Predicted size after so many rows, bytes.
+  double bytes(double rows) const;
   /// One sentence on what went wrong; empty as long as all is well.
   const std::string& fault() const { return fault_; }
   hsize_t rows() const { return rows_; }                ///< complete ones, in memory and on disk
@@ -59,8 +65,15 @@ class SeriesFile {
     std::vector<hsize_t> row_shape;
     Storage storage;
     std::size_t bytes;  ///< of one row
+    std::size_t chunk;  ///< bytes
     Hdf5Dataset dataset;
     std::vector<std::byte> batch;  ///< rows not yet on disk
+  };
+  struct Constant {
+    std::string path;
+    std::vector<hsize_t> shape;
+    std::string units, description;
+    std::vector<double> values;
   };
   using Clock = std::chrono::steady_clock;
 
@@ -68,19 +81,18 @@ class SeriesFile {
   void guarded(const char* what, Action action);
   void append_bytes(int id, const void* row, Storage storage);
   void reserve();
+  void write_constants();
   void write_batch(Column& column);
 
   std::string path_, fault_;
   Hdf5File file_;
   std::vector<Column> columns_;
+  std::vector<Constant> constants_;  ///< not yet on disk
   hsize_t rows_ = 0, written_ = 0;
   std::size_t row_bytes_ = 0;
-  double seconds_, pause_;
+  double seconds_, pause_, expected_rows_;
+  bool flushed_ = false;
   Clock::time_point last_ = Clock::now();
 };
-
-/// Predicted size in bytes of a file of growing datasets with `row_bytes` a row (see `SeriesFile::row_bytes`)
-/// in `datasets` of them.
-double series_bytes(double rows, double row_bytes, int datasets);
 
 }  // namespace slipscale

@@ -11,7 +11,8 @@
 
 namespace slipscale {
 
-/// Runs what may fail on one rank alone, and lets all ranks fail with it. Collective.
+/// Runs what may fail on one rank alone, and lets all ranks fail with it: `RunError`. `action` must not be
+/// collective, or a rank that fails before it would leave the others waiting. Collective.
 void write_together(MPI_Comm comm, const std::string& path, const std::function<void()>& action);
 
 /// A dataset's place, unit and meaning.
@@ -27,12 +28,31 @@ struct DatasetSlice {
 
 /// This rank's slice of rows of a shape ({} a number) in a file's order.
 DatasetSlice slice_of(const FileOrder& order, std::vector<hsize_t> shape_of_row);
+/// All rows on rank 0, none elsewhere.
+DatasetSlice slice_of_root(MPI_Comm comm, std::vector<hsize_t> shape);
+
+/// Rows made of others' columns: entry `to` of each row, counted through its shape, shows entry `at` of the
+/// rows of the dataset `from`, which have the shape `row` ({} a number). Entries that nothing fills are 0.
+struct DatasetView {
+  struct Entry {
+    std::size_t to;
+    std::string from;
+    std::vector<hsize_t> row;
+    std::size_t at;
+  };
+  std::vector<hsize_t> shape;  ///< rows first
+  std::vector<Entry> entries;
+};
 
 /// HDF5's name of PetscInt in memory and in files.
 hid_t index_type();
 
-/// An HDF5 file that all ranks write together. What fails on one rank, a full disk say, throws UserError on
-/// all. All members are collective.
+/// An HDF5 file of data that lie on all ranks.
+///
+/// Rank 0 writes it, with HDF5's serial driver; the others send it their rows, a few MiB at a time. No call
+/// of HDF5 is collective, so a failure, which only the writing rank can see, leaves nobody waiting: it is
+/// told to all before anything else is sent, and throws `RunError` on all. (MPI-IO offers no such guard: an
+/// error of one rank unwinds into a collective close.) All members are collective.
 class SharedFile {
  public:
   /// `whole`: under a temporary name until `finish`, and gone if that never comes; `growing`: under its own
@@ -45,7 +65,7 @@ class SharedFile {
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;
 
-  /// Writes a dataset from all ranks at once; `more` adds attributes to it.
+  /// Writes a dataset from all ranks; `more` adds attributes to it, on rank 0 alone.
   void write(
       const DatasetDescription& about, const DatasetSlice& slice, hid_t type, const void* rows,
       const std::function<void(hid_t dataset)>& more = [](hid_t) {});
@@ -53,28 +73,35 @@ class SharedFile {
   void write(const DatasetDescription& about, const FileOrder& order,
              const std::vector<hsize_t>& shape_of_row, const double* rows);
 
-  /// Declares a list of numbers that grows by `append`.
+  /// Declares a list of numbers that grows by `append`, which takes rank 0's value.
   void add_series(const DatasetDescription& about);
   void append(const std::string& series, double value);
 
+  /// A dataset without data of its own: columns of others as entries of a larger row (HDF5's virtual
+  /// dataset). For readers that want tensors where we keep less.
+  void write_view(const DatasetDescription& about, const DatasetView& view);
+
   /// A second path to a dataset.
   void link(const std::string& from, const std::string& to);
-  /// Adds attributes to a dataset or group that exists.
+  /// Adds attributes to a dataset or group that exists, on rank 0 alone.
   void describe(const std::string& object, const std::function<void(hid_t object)>& attributes);
 
+  /// Sets room aside for what comes next; when the disk has not got it, the file stays as it is.
   void reserve(double bytes);
   void flush();
   void finish();
 
  private:
+  /// Runs it on rank 0. After a failure inside HDF5 the file is cut off from the disk.
+  void on_root(const std::function<void()>& action);
   std::string name() const { return appearance_ == Appearance::whole ? path_ + ".partial" : path_; }
   void discard();
 
   MPI_Comm comm_;
-  int rank_ = 0;
+  bool root_;
   std::string path_;
   Appearance appearance_;
-  Hdf5File file_;
+  Hdf5File file_;  ///< on rank 0
   bool finished_ = false;
 };
 

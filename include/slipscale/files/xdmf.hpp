@@ -28,6 +28,14 @@ struct XdmfDocument {
   std::optional<std::vector<double>> times = {};  ///< s, of the frames; absent: the fields do not change
 };
 
+/// Writes a view of each entry of a dataset on cells, "<path>_<component>", and returns how XDMF shows them,
+/// so that a list of tensor components does not pass for a vector in space. `row`: the shape of the dataset's
+/// rows, with as many entries as there are `components`; `name`: of the field. Collective.
+std::vector<XdmfAttribute> write_components(SharedFile& file, const MeshLayout& mesh,
+                                            const DatasetDescription& about, const std::vector<hsize_t>& row,
+                                            const std::vector<std::string>& components,
+                                            const std::string& name);
+
 /// /mesh/region as a field.
 XdmfAttribute xdmf_region();
 
@@ -38,7 +46,7 @@ std::string frame_path(std::size_t frame);
 /// meshio's TimeSeriesReader.
 std::string xdmf_text(const XdmfDocument& document);
 
-/// Replaces the file as a whole; UserError on all ranks when it cannot be written. Collective.
+/// Replaces the file as a whole; `RunError` on all ranks when it cannot be written. Collective.
 void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document);
 
 }  // namespace slipscale

@@ -91,7 +91,8 @@ struct Mesh {
   Vector2 lower{}, upper{};        ///< bounding box of the cells, m
   double shortest_edge = 0;        ///< m
   std::string file;
-  std::uint64_t checksum = 0;  ///< FNV-1a of the file's bytes
+  std::uint64_t checksum = 0;      ///< FNV-1a of the file's bytes
+  std::vector<std::string> notes;  ///< what was made of the file, one sentence each, for the user to see
   PartitionReport partition;
 
   const Boundary* find_boundary(const std::string& name) const;

@@ -22,14 +22,20 @@ MeshSource mesh_source(const Options& options);
 Schema periodic_mesh_schema();
 MeshSource periodic_mesh_source(const Options& options);
 
-/// Reads a gmsh file into a partitioned mesh with one layer of overlap.
+/// Reads a gmsh file of MSH 4.1, text or binary, into a partitioned mesh with one layer of overlap.
 ///
-/// Regions and boundaries are gmsh's physical surfaces and curves, by name. Throws `UserError` when the file
-/// cannot be read, is not plane, names no region, leaves a cell without region, has an inverted or degenerate
-/// cell, or is periodic but written as MSH 2 (which does not carry periodicity into a DMPlex). Collective.
+/// Regions and boundaries are gmsh's physical surfaces and curves, by name; a group without one is called
+/// surface_<tag> or curve_<tag>. A group holds what gmsh says that it does, whatever the sign of its tag.
+/// Surfaces that run clockwise are turned, and of cells of higher order the corners are taken; `Mesh::notes`
+/// tells both.
+///
+/// Throws `UserError` when the file is of another format (with the command that converts it), damaged, not
+/// plane, or no sound body: a cell without region or in two, inverted or degenerate; cells that overlap;
+/// nodes that coincide but are not one; parts that share no node; periodic sides that are no shifts of one
+/// another or are paired in part, or fewer than three cells across a period. Collective.
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source);
 
-/// The table printed at start: names, tags, sizes, and what each rank holds.
+/// The table printed at start: names, tags, sizes, and what each rank holds, below the mesh's notes.
 std::string describe(const Mesh& mesh, const std::vector<std::string>& region_materials);
 
 }  // namespace slipscale

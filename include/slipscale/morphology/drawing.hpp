@@ -29,6 +29,17 @@ struct Piece {
 /// inclusion's. Corners on sides stay there.
 std::vector<Piece> polygons(const std::vector<Inclusion>& inclusions, const Room& room, double length);
 
+/// Layers of inclusion between low and high along the normal, from before the block to behind it, m.
+struct LayerStack {
+  Vector2 normal;
+  struct Layer {
+    int number;
+    double low, high;
+  };
+  std::vector<Layer> layers;
+};
+LayerStack stack(const Laminate& laminate, const Room& room, double clearance);
+
 /// The layers of a laminate in the block, one of inclusion in its middle; the layers are shifted as a whole
 /// when an interface would come nearer than `clearance` to a corner of the block. Throws UserError when the
 /// layers do not fit a periodic block.

@@ -60,6 +60,7 @@ struct GreyImage {
   std::vector<double> levels;        ///< ascending, 0 to 1
   std::vector<std::string> regions;  ///< one more than levels, from dark to bright
   double pixel = 0;                  ///< side of a pixel, m
+  long despeckle = 0;                ///< pixels of the smallest island that stays
 };
 
 /// Edge lengths of the mesh: the smallest of `bulk`, and those at interfaces and at the contact surface
@@ -69,7 +70,8 @@ struct MeshSize {
   double growth = 0;                            ///< per metre of distance
 };
 
-enum class CellShape { triangle, quadrilateral };
+/// `grid` is squares fitted to the interfaces.
+enum class CellShape { triangle, quadrilateral, grid };
 
 struct MeshChoice {
   MeshSize size;

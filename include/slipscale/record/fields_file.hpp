@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "slipscale/files/mesh_image.hpp"
 #include "slipscale/mesh/mesh.hpp"
@@ -14,28 +15,34 @@ struct DatasetDescription;
 
 /// What fields.h5 holds at each saved time.
 struct FieldQuantities {
-  bool u = true, v = true, stress = true, strain = false;
+  bool u = true, v = true, stress = true, strain = false, von_mises = false, principal = false;
+
+  bool of_stress() const { return stress || von_mises || principal; }  ///< needs the stress of the cells
 };
 
-/// Reads "u,v,stress,strain" or a part of it, in any order. Throws `UserError` naming `option` on anything
-/// else.
+/// Reads "u,v,stress,strain,von_mises,principal" or a part of it, in any order. Throws `UserError` naming
+/// `option` on anything else.
 FieldQuantities field_quantities(const std::string& list, const std::string& option = "fields_quantities");
 
 /// fields.h5 and fields.xdmf: the mesh and the fields on it at the saved times; opens in ParaView as it is.
 ///
 /// /mesh/coordinates [points, 2] m, /mesh/cells, /mesh/region [cells]; /time [frames] s; /frames/00000/u, v
-/// [points, 3] m and m/s, stress [cells, 3] Pa, strain [cells, 3] with engineering shear. Of an
-/// image with a box only that part. In the order of the whole mesh: the same data on any
-/// number of ranks.
+/// [points, 3] m and m/s, stress [cells, 3] Pa as (xx, yy, xy) with stress_zz [cells] beside it, strain
+/// [cells, 3] with engineering shear, von_mises [cells] and principal_high and principal_low [cells], the
+/// principal stresses in the plane, Pa. stress_tensor [cells, 3, 3] is a view of stress and stress_zz without
+/// data of its own, from which ParaView names the components XX, YY, ZZ and XY; strain_xx, strain_yy and
+/// strain_xy are views of the strain's columns. Of an image with a box only that part. In the order of the
+/// whole mesh: the same data on any number of ranks.
 ///
 /// Each frame is on the disk before `write` returns, and the XDMF file, replaced as a whole, never names one
-/// that is not. All members are collective; a failure on one rank, a full disk say, throws `UserError` on
-/// all.
+/// that is not. All members are collective; a failure on one rank, a full disk say, throws `RunError` on all.
 class FieldsFile {
  public:
   /// Writes the mesh. `folder` must exist; older files of these names, `name`.h5 and .xdmf, are overwritten.
+  /// `transverse` [local cells] is σ_zz/(σ_xx + σ_yy), see `transverse_ratio`; without it nothing is known of
+  /// zz.
   FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
-             const std::string& name = "fields");
+             const std::string& name = "fields", std::vector<double> transverse = {});
   /// Of the whole mesh, without a box.
   FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folder, FieldQuantities quantities);
   ~FieldsFile();
@@ -54,10 +61,13 @@ class FieldsFile {
  private:
   void write_nodal(const DatasetDescription& about, const double* values);
   void write_on_cells(const DatasetDescription& about, const double* values);
+  void write_stress(const std::string& frame, const double* stress);
+  void write_strain(const std::string& frame, const double* strain);
 
   MPI_Comm comm_;
   const FieldQuantities quantities_;
   const MeshImage image_;
+  const std::vector<double> transverse_;
   std::unique_ptr<SharedFile> file_;
   std::string xdmf_path_;
   std::unique_ptr<XdmfDocument> xdmf_;

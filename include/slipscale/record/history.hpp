@@ -10,10 +10,13 @@
 
 namespace slipscale {
 
-/// history.h5: one row an observed step. Lives on rank 0.
+/// history.h5: one row for each recorded step of what an `Observer` and `Probes` see; the energy terms are those
+/// of `Energy` (ledger.hpp). Lives on rank 0.
 class HistoryFile {
  public:
-  HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points);
+  /// `rows` that are expected.
+  HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
+              double rows);
   void write(const Observation& seen, const std::vector<ProbeReading>& probes);
   SeriesFile& series() { return file_; }
 
@@ -25,18 +28,18 @@ class HistoryFile {
   std::vector<int> boundary_, surface_, energy_, fractions_, points_;
 };
 
-/// contact.h5: every contact node at the saved times. Lives on rank 0.
+/// contact.h5: every contact node, along x, at the saved times, as an `Observer` sees it. Lives on rank 0.
 class ContactFile {
  public:
-  ContactFile(const std::string& path, const Observer& observer);
+  ContactFile(const std::string& path, const Observer& observer, double rows);
   void write(const Observation& seen, double surface_velocity);
   SeriesFile& series() { return file_; }
 
  private:
   SeriesFile file_;
   std::vector<double> length_;
-  int time_, u_, slip_rate_, normal_, tangential_, status_;
-  std::vector<double> u_row_, slip_row_, normal_row_, tangential_row_;
+  int time_, u_, v_y_, gap_, slip_rate_, normal_, tangential_, strength_, status_;
+  std::vector<double> u_row_, v_y_row_, gap_row_, slip_row_, normal_row_, tangential_row_, strength_row_;
   std::vector<std::uint8_t> status_row_;
 };
 

@@ -15,10 +15,19 @@ struct BoundaryLoad {
       0;  ///< of the body on its support, > 0 along +x (along +y where the boundary is vertical)
 };
 
+/// Unit vectors at a boundary: its mean outward normal (+y where it has none), and along it towards +x (+y
+/// where it is vertical).
+struct Directions {
+  Vector2 normal, tangent;
+};
+Directions directions_of(const Boundary& boundary);
+
 /// One contact node at t_n.
 struct ContactReading {
   Vector2 u{};              ///< m
-  double velocity = 0;      ///< v_x, m/s
+  Vector2 v{};              ///< m/s
+  double gap = 0;           ///< height above the surface, m
+  double strength = 0;      ///< what the friction law remembers, Pa
   double traction = 0;      ///< tangential, on the body along +x, Pa
   double normal_force = 0;  ///< λ, N/m
   ContactStatus status = ContactStatus::open;
@@ -49,6 +58,7 @@ class Observer {
   Observation observe() const;
 
   const std::vector<double>& contact_x() const { return contact_x_; }              ///< rank 0, ascending, m
+  const std::vector<double>& contact_y() const { return contact_y_; }              ///< rank 0, m
   const std::vector<double>& tributary_length() const { return contact_length_; }  ///< rank 0, m
   int measured() const { return measured_; }  ///< index of the measured boundary; −1 without one
 
@@ -60,7 +70,7 @@ class Observer {
   OrderedGather boundary_gather_, contact_gather_;
   std::vector<std::vector<int>> members_;  ///< rank 0, by boundary: rows of the gathered boundary nodes
   std::vector<int> along_x_;               ///< rank 0: gathered contact rows in the order of x
-  std::vector<double> contact_x_, contact_length_;
+  std::vector<double> contact_x_, contact_y_, contact_length_;
   int measured_ = -1;
 };
 

@@ -35,8 +35,8 @@ class Probes {
     int cell;  ///< local cell
     double weight;
   };
-  bool place_on_node(MPI_Comm comm, const Mesh& mesh, int point);
-  bool place_in_cell(MPI_Comm comm, const Mesh& mesh, int point);
+  void place_on_nodes(MPI_Comm comm, const Mesh& mesh, std::vector<char>& placed);
+  void place_in_cells(MPI_Comm comm, const Mesh& mesh, std::vector<char>& placed);
 
   std::vector<Vector2> positions_;
   std::vector<Corner> corners_;                 ///< of all points, the same on every rank

@@ -18,14 +18,26 @@ struct StatisticsChoice {
   double quantile = 0.99;
 };
 
+/// How often something is recorded: every so many steps, or as near to every so many seconds as whole steps
+/// come. Neither: as often as the recorder finds right, or never.
+struct Cadence {
+  std::optional<long> every;       ///< steps
+  std::optional<double> interval;  ///< s
+  std::string option;              ///< that gives the interval
+
+  bool given() const { return every || interval; }
+  /// In steps of `step` seconds; `otherwise` when nothing is given. Throws UserError for an interval of less
+  /// than a step.
+  long steps(double step, long otherwise) const;
+};
+
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
-  long history_every = 1;             ///< steps
-  std::vector<Vector2> points;        ///< m
-  std::optional<long> contact_every;  ///< steps; absent: about a thousand rows in the run
-  std::optional<long> fields_every;   ///< steps
-  std::vector<double> fields_times;   ///< s
+  Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
+  std::vector<Vector2> points;  ///< m
+  Cadence fields;
+  std::vector<double> fields_times;  ///< s
   FieldQuantities quantities;
   std::optional<Box> fields_box;
   std::optional<StatisticsChoice> statistics;

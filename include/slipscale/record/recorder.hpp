@@ -9,6 +9,7 @@
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/files/progress.hpp"
 #include "slipscale/record/fields_file.hpp"
+#include "slipscale/record/force_record.hpp"
 #include "slipscale/record/history.hpp"
 #include "slipscale/record/observation.hpp"
 #include "slipscale/record/record_choice.hpp"
@@ -29,7 +30,8 @@ class Recorder {
     return n % history_every_ == 0 || n == last_ || contact_due(n) || fields_due(n) || statistics_due(n);
   }
   /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the
-  /// state is no longer finite, when energy appears from nowhere, or when the disk is full. Collective.
+  /// state is no longer finite, when energy appears from nowhere, or when the disk is full or the folder
+  /// gone. Collective.
   void after_step(long n);
 
   /// Predicted steps, time, memory and output, for the user to see before the first step. Collective.
@@ -44,8 +46,10 @@ class Recorder {
   bool contact_due(long n) const { return has_contact_ && (n % contact_every_ == 0 || n == last_); }
   bool fields_due(long n) const;
   bool statistics_due(long n) const { return window_ && window_->due(n); }
+  double rows(long every) const { return static_cast<double>((last_ + every - 1) / every + 1); }
   void observe(long n);
   void record_cells(long n);
+  std::string cadences() const;  ///< for the forecast
   void check(const Observation& seen) const;
   [[noreturn]] void stop(const std::string& fault) const;
   void share_faults();
@@ -56,10 +60,13 @@ class Recorder {
   const long last_, history_every_;
   const bool has_contact_;
   const long contact_every_;
-  const std::vector<long> field_steps_;  ///< ascending
+  const std::optional<long> fields_every_;
+  const std::vector<long> field_steps_;   ///< ascending
+  const std::vector<double> transverse_;  ///< [local cells] or none
   const std::optional<StatisticsWindow> window_;
   Observer observer_;
   Probes probes_;
+  ForceRecord force_;
   OutputFolder folder_;                   ///< below all that may refuse the scene: an older run is kept then
   std::unique_ptr<HistoryFile> history_;  ///< on rank 0
   std::unique_ptr<ContactFile> contact_;  ///< on rank 0

@@ -25,12 +25,28 @@ struct Peak {
 /// series.
 Spectrum welch(const std::vector<double>& series, double interval, std::size_t segment = 0);
 
-/// The `count` highest local maxima at or above bin `first`, highest first. Frequencies are interpolated by a
-/// parabola through the logarithms of three bins: within 0.02 bins for a sinusoid. The first bins hold what
-/// is left of the drift.
-std::vector<Peak> peaks(const Spectrum& spectrum, std::size_t count, std::size_t first = 3);
+/// Bins from which on a line is one: what is slower varies less than three times within a segment and cannot
+/// be told from drift.
+constexpr std::size_t first_resolved_bin = 3;
 
-/// Frequency of the highest peak, Hz; 0 when there is none.
+/// The `count` highest local maxima at or above bin `first`, highest first, one of each hump: a maximum
+/// stands for itself when the density, smoothed over five bins, falls on the way to every higher one below a
+/// quarter of its own. Frequencies are interpolated by a parabola through the logarithms of three bins:
+/// within 0.02 bins for a sinusoid.
+std::vector<Peak> peaks(const Spectrum& spectrum, std::size_t count, std::size_t first = first_resolved_bin);
+
+/// Frequency of the highest peak, Hz; 0 when there is none, and when the density is higher still below the
+/// first resolved bin: what dominates is then slower than the series can tell.
 double dominant_frequency(const Spectrum& spectrum);
+
+/// A peak of a sparse record that a faster vibration makes.
+struct Alias {
+  double recorded = 0, source = 0;  ///< Hz
+};
+
+/// Which of the peaks of a record with `rate` rows a second are aliases, as a spectrum of the same signal
+/// shows that was taken more often: those at which more than a tenth of the power comes from the frequencies
+/// k·rate ± f that fall on f. Powers are those within two bins of the denser spectrum.
+std::vector<Alias> aliases(const std::vector<Peak>& found, double rate, const Spectrum& dense);
 
 }  // namespace slipscale

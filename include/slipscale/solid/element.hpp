@@ -18,6 +18,13 @@ using StrainDisplacement = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMa
 /// `corners` run counter-clockwise, m; `elasticity` is [3, 3] in Voigt order (xx, yy, xy), Pa.
 ElementStiffness element_stiffness(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity);
 
+/// The same with the cell's mean dilatation in place of that at each Gauss point (B-bar: Nagtegaal, Parks and
+/// Rice, Comput. Methods Appl. Mech. Engng 4 (1974) 153; Hughes, Int. J. Numer. Meth. Engng 15 (1980) 1413):
+/// a quadrilateral that does not lock where the solid is nearly incompressible. A linear triangle has but one
+/// dilatation, so its stiffness is the same, and it locks.
+ElementStiffness mean_dilatation_stiffness(std::span<const Vector2> corners,
+                                           const Eigen::Matrix3d& elasticity);
+
 /// ∫ N_i dA, the row sum of the mass matrix over the density, one a corner, m². Unused entries are zero.
 std::array<double, 4> corner_areas(std::span<const Vector2> corners);
 

@@ -1,10 +1,9 @@
 """Finds the regularisation time with which a homogeneous model rubs as the composite does.
 
-    PYTHONPATH=runs python3 -m slipscale.adapting.adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
-        [--program "build/release/slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
+    slipscale adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
+        [--program "mpirun -n 2 slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
 
-Both are folders of `slide`; the homogeneous run is repeated with its run.yaml, from the same working folder. The
-levels, all three by default:
+Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. The levels, all three by default:
 
     scaling    T such that ωT is that of the heterogeneous run, ω the dominant frequency of friction
     frequency  T such that at the frequency through which most passes, the homogeneous surface moving and being
@@ -24,9 +23,8 @@ a level came nearer in its spectrum of friction, and nearer than a block that do
 1: none did, honestly; 2: what is asked for cannot be read.
 """
 
-import argparse
 import math
-import sys
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +34,11 @@ from slipscale.adapting import relaxation, search
 from slipscale.adapting.trials import Trials, changed, compared, options_of, spelled_out, value_of
 from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
+from slipscale.measuring.window import default_window
+from slipscale.parser import Parser
 from slipscale.reading import History, UnreadableRun
+from slipscale.reading.yaml_file import load
+from slipscale.running import programs
 from slipscale.running.attempt import number_or_text, write_whole
 
 LEVELS = ("scaling", "frequency", "search")
@@ -54,8 +56,8 @@ class Failure(Exception):
 class Adaptation:
     def __init__(self, heterogeneous, homogeneous, asked):
         self.asked, self.folders = asked, {"heterogeneous": heterogeneous, "homogeneous": homogeneous}
-        end = min(History(folder).time[-1] for folder in self.folders.values())
-        self.window = tuple(asked.window or (0.5 * end, end))
+        self.window = tuple(asked.window or default_window(
+            min((History(folder).time for folder in self.folders.values()), key=lambda time: time[-1])))
         spectrum = friction_spectrum(heterogeneous, self.window)
         self.target = measures(heterogeneous, self.window)
         self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
@@ -105,6 +107,8 @@ class Adaptation:
     def search(self):
         values = search.scan_values(self.start, self.asked.factor, self.asked.points)
         rows = [self.trial(value) for value in values]
+        if not any(row["status"] == "ok" for row in rows):
+            raise Failure(f"no run of the scan came to its end: {rows[0]['reason']}")
         told = {"scan": [{name: row.get(name) for name in (self.asked.parameter, *MATCHES.values(), *SHARES,
                                                            "spectrum_distance", "status", "reason")} for row in rows]}
         seen = {}
@@ -187,7 +191,7 @@ def adapted_before(folder):
     file = Path(folder) / "adapt.yaml"
     if not file.is_file():
         return folder
-    found = yaml.safe_load(file.read_text())
+    found = load(file, written=True)
     ends = [level["after"] for level in found["levels"].values() if "after" in level] or [found["nearest"] or found["before"]]
     return min(ends, key=lambda end: end["spectrum_distance"])["folder"]
 
@@ -207,13 +211,14 @@ def plain(value):
 
 
 def parsed(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("adapt", __doc__)
     parser.add_argument("heterogeneous")
     parser.add_argument("homogeneous")
     parser.add_argument("--output", required=True, help="folder of adapt.yaml and the trials")
     parser.add_argument("--level", dest="levels", nargs="+", choices=LEVELS, help="default: all; of another parameter "
                         "than friction_time only search")
-    parser.add_argument("--program", default="build/release/slide", help="words before the options, as 'mpirun -n 2 …'")
+    parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside this "
+                        "command)")
     parser.add_argument("--match", choices=tuple(MATCHES))
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="s; default: the second half")
     parser.add_argument("--parameter", default="friction_time", help="option of slide that is adapted")
@@ -223,6 +228,7 @@ def parsed(arguments):
     parser.add_argument("--points", type=int, default=7, help="of the scan")
     parser.add_argument("--most", type=int, default=10, help="trials after the scan")
     asked = parser.parse_args(arguments)
+    asked.program = programs.words_of(asked.program or shlex.quote(str(programs.program("slide"))))
     asked.set = {name: number_or_text(value) for name, _, value in (word.partition("=") for word in asked.set)}
     asked.levels = asked.levels or (LEVELS if asked.parameter == "friction_time" else LEVELS[-1:])
     if asked.parameter != "friction_time" and set(asked.levels) != {"search"}:
@@ -232,11 +238,7 @@ def parsed(arguments):
 
 def main(arguments=None):
     asked = parsed(arguments)
-    try:
-        found = Adaptation(asked.heterogeneous, adapted_before(asked.homogeneous), asked).report()
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
+    found = Adaptation(asked.heterogeneous, adapted_before(asked.homogeneous), asked).report()
     Path(asked.output).mkdir(parents=True, exist_ok=True)
     write_whole(Path(asked.output) / "adapt.yaml", yaml.safe_dump(plain(found), sort_keys=False, width=1000,
                                                                   allow_unicode=True))
@@ -246,7 +248,3 @@ def main(arguments=None):
     if found["status"] != "ok":
         print(f"not adapted: {found['reason']}")
     return 0 if found["status"] == "ok" else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -10,10 +10,10 @@ mean normal force, never the mean of the ratio: the normal force can come near z
 import numpy as np
 
 from slipscale.measuring import spectrum
-from slipscale.measuring.window import rows_in
+from slipscale.measuring.averages import ratio_of_means
+from slipscale.measuring.window import FEWEST_ROWS, rows_in
 from slipscale.reading import History, Summary, UnreadableRun
 
-FEWEST_ROWS = 32
 HIGHEST = 2e6  # Hz, up to which spectra are compared
 STILL = 1e-9  # of the normal force: friction that varies by less is constant to rounding, and has no frequency
 SHARE = 0.01  # of the contact's length and time: what sticks or opens less than this does not name the regime
@@ -21,6 +21,7 @@ STEADY = 0.01  # of friction, and of the drive power: what varies or feeds vibra
 
 MEASURES = {  # name: (unit, what it is)
     "friction": ("1", "mean tangential over mean normal force at the measured boundary"),
+    "friction_error": ("1", "standard error of friction, from blocks of the window"),
     "normal_force": ("N/m", "mean normal force there"),
     "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant"),
     "amplitude": ("1", "standard deviation of the tangential over the mean normal force"),
@@ -34,7 +35,7 @@ MEASURES = {  # name: (unit, what it is)
     "drive_power": ("W/m", "mean of τ V along the surface"),
     "power_ratio": ("1", "mean power into the body over mean drive power"),
     "settled": ("1", "amplitude in the second half of the window over that in the first"),
-    "regime": ("", "steady, slip, stick-slip, slip-separated or stick-slip-separated"),
+    "regime": ("", "open, steady, slip, stick-slip, slip-separated or stick-slip-separated"),
 }
 
 
@@ -57,7 +58,9 @@ def friction_signal(history, boundary, rows):
 def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
     """The name that Peillex, Baillet, Berthier (IJTC2007-44438) give to what the contact does over time; steady where
     nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip hardly
-    moves the mean friction, but it takes power."""
+    moves the mean friction, but it takes power. Open where the body does not touch at all."""
+    if open_ >= 1 - 1e-9:
+        return "open"
     if amplitude <= STEADY * abs(friction) and abs(power_ratio) <= STEADY:
         return "steady"
     name = "stick-slip" if stick > SHARE else "slip"
@@ -76,6 +79,8 @@ def measures(folder, window, point=0):
     first = np.std(signal[:half])
     found = {
         "friction": history.mean_friction(boundary, rows),
+        "friction_error": ratio_of_means(*(history.boundary[boundary][f"{force}_force"][rows]
+                                           for force in ("tangential", "normal")))[1],
         "normal_force": np.mean(history.boundary[boundary]["normal_force"][rows]),
         "frequency": spectrum.dominant_frequency(*spectrum.welch(values, rate)) if np.ptp(values) > STILL else 0.0,
         "amplitude": np.std(signal),

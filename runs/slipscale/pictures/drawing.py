@@ -8,10 +8,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from PIL import Image
 
-from slipscale.reading import UnreadableRun
+from slipscale.mistakes import Mistake
 
 PREFIXES = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
 
@@ -23,6 +25,13 @@ def length_unit(coordinates):
         if size >= 0.999 * metres:
             return 1 / metres, name
     return 1 / PREFIXES[-1][0], PREFIXES[-1][1]
+
+
+def shown(folder, most=60):
+    """The path of a folder as a title says it: its last parts, where all of it would not fit."""
+    parts = Path(folder).parts
+    kept = [part for k, part in enumerate(parts) if len(str(Path(*parts[k:]))) <= most] or [parts[-1][-most:]]
+    return str(Path(*kept)) if len(kept) == len(parts) else "…/" + str(Path(*kept))
 
 
 def limits_of(values, cut):
@@ -58,23 +67,37 @@ def draw_cells(axes, mesh, values, colours, linewidth=0.8):
     return image
 
 
+def few_ticks(axis):
+    """On a logarithmic axis that spans a decade or so the labels of 1, 2 and 5 do not run into each other."""
+    low, high = sorted(axis.get_view_interval())
+    if low > 0 and high < 30 * low:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
+        axis.set_minor_formatter(NullFormatter())
+
+
 def keep_small(picture, copy):
-    """A copy with 256 colours, a third of the size, to stand in a README."""
+    """A copy to stand in a README: without transparency, in all of its colours, as fields would show steps in fewer."""
     with Image.open(picture) as image:
-        image.convert("RGB").quantize(256).save(copy, optimize=True)
+        image.convert("RGB").save(copy, optimize=True)
 
 
 def write_picture(parser, draw, arguments=None):
     """Adds the argument `picture`, parses, and saves `draw(options)`: 0, or 2 after one sentence on stderr."""
     parser.add_argument("picture", help="image to write; the ending chooses the format")
     options = parser.parse_args(arguments)
-    endings = plt.figure().canvas.get_supported_filetypes()
-    if Path(options.picture).suffix.lstrip(".") not in endings:
-        parser.error(f"{options.picture} should end in one of: {', '.join(endings)}")
-    plt.rcParams.update({"font.size": 11, "axes.titlesize": 11.5})
     try:
-        draw(options).savefig(options.picture, dpi=120)
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
+        save(parser, options.picture, lambda: draw(options))
+    except (Mistake, OSError) as error:
+        print(f"{parser.prog}: {error}", file=sys.stderr)
         return 2
     return 0
+
+
+def save(parser, path, draw):
+    """Saves the figure that `draw()` gives; the ending of the path is looked at first, mistakes end the command."""
+    endings = FigureCanvasBase.get_supported_filetypes()
+    if Path(path).suffix.lstrip(".") not in endings:
+        parser.error(f"{path} should end in one of: {', '.join(endings)}")
+    plt.rcParams.update({"font.size": 11, "axes.titlesize": 11.5})
+    draw().savefig(path, dpi=120)

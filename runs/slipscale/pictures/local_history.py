@@ -55,15 +55,24 @@ def history_panel(axes, before, point, reference, component, name, shown):
     lines = (("heterogeneous", time[inside], expected[inside], "0.6", 4.5),  # seen below a curve that lies on it
              ("homogeneous", point.time, point.homogeneous_stress[:, component] * MEGA, BLUE, 1.2),
              ("relocalised", point.time, point.stress[:, component] * MEGA, VERMILION, 1.2))
+    errors = []
     for label, t, values, colour, width in lines:
         if label != "heterogeneous" and inside.any():
             there = np.interp(time[inside], t, values)
-            label += f", error {in_digits(relative_error(there, expected[inside], np.ones(len(there))))}"
+            errors.append(f"{label} {in_digits(relative_error(there, expected[inside], np.ones(len(there))))}")
         axes.plot(t * MICRO, values, color=colour, linewidth=width, label=label,
                   marker="." if len(t) < 60 and width < 2 else None, rasterized=True)
     if shown is not None:
         axes.axvline(shown * MICRO, color="0.7", linewidth=1, zorder=0)
     where = ", ".join(f"{x * 1e3:.4g}" for x in point.x)
-    axes.legend(framealpha=0.9)
     axes.grid(alpha=0.25)
-    axes.set(title=f"{before}in {point.region} at ({where}) mm", xlabel="time [µs]", ylabel=f"{name} [MPa]")
+    differ = f"\nrelative L2 difference: {', '.join(errors)}" if errors else ""
+    axes.set(title=f"{before}in {point.region} at ({where}) mm{differ}", xlabel="time [µs]", ylabel=f"{name} [MPa]")
+
+
+def legend_below(figure, axes):
+    """One legend for all of the panels that `history_panel` drew, below them."""
+    handles, labels = next((panel.get_legend_handles_labels() for panel in axes if panel.lines), ([], []))
+    if handles:
+        figure.supxlabel(" ")  # room for it
+        figure.legend(handles, labels, loc="lower center", ncol=len(labels), frameon=False)

@@ -1,18 +1,16 @@
 """A column of a study's table over the options that were varied: a map over two of them, a line over one.
 
-    PYTHONPATH=runs python3 -m slipscale.pictures.maps out/sweep/table.csv picture.png [--value friction frequency open regime]
+    slipscale maps out/sweep/table.csv picture.png [--value friction frequency open regime]
         [--over friction_coefficient surface_speed] [--where seed=1 measure=error] [--unit surface_speed=m/s]
 
 Without --over the two options with the most values span the map, and there is a panel for every combination of the
 others. A run that failed is hatched. Exits with code 2 and one sentence when there is nothing to draw.
 """
 
-import argparse
-import sys
-
 import numpy as np
 from matplotlib.patches import Patch
 
+from slipscale.parser import Parser
 from slipscale.pictures.colours import BLUE
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.scales import UNITS, Scale, Shades, in_words, options_of, values_of, varied
@@ -206,7 +204,7 @@ def pairs(words):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("maps", __doc__)
     parser.add_argument("table", help="table.csv of a study")
     parser.add_argument("--value", nargs="+", help=f"columns to draw (default: {', '.join(SHOWN)}, where they exist)")
     parser.add_argument("--over", nargs="+", metavar="OPTION", help="one or two options for the axes")
@@ -219,7 +217,3 @@ def main(arguments=None):
         return draw(read_csv(options.table), options.value, options.over, pairs(options.where), pairs(options.unit))
 
     return write_picture(parser, figure, arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -3,12 +3,15 @@
 `window` is the pair of times (s) over which means and spectra are taken.
 """
 
+import textwrap
+
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from slipscale.measuring import spectrum
+from slipscale.measuring.averages import ratio_of_means, with_error
 from slipscale.measuring.window import MICRO, in_words, rows_in
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import colours_for, draw_cells
@@ -58,15 +61,16 @@ def friction(axes, history, boundary, window, coefficient):
     As in the spectrum, the instantaneous ratio gives way to T over mean N where N comes near zero.
     """
     rows = rows_in(history.time, window)
-    mean, measured = history.mean_friction(boundary, rows), history.friction
+    measured, forces = history.friction, history.boundary[boundary]
+    mean, error = ratio_of_means(forces["tangential_force"][rows], forces["normal_force"][rows])
+    mean = mean if np.isfinite(mean) else 0.0
     name = friction_signal(history, boundary, rows)[1]
     if name != "T / N":
-        forces = history.boundary[boundary]
         measured = forces["tangential_force"] / forces["normal_force"][rows].mean()
     axes.axvspan(window[0] * MICRO, window[1] * MICRO, color="0.93", zorder=0)
     axes.plot(history.time * MICRO, measured, color=BLUE, linewidth=0.6, rasterized=True)
     axes.plot(np.array(window) * MICRO, [mean, mean], color=VERMILION, linewidth=2,
-              label=f"mean T / mean N = {mean:.4f} ({in_words(window)})")
+              label=f"mean T / mean N = {with_error(mean, error)}, {in_words(window)}")
     if coefficient is not None:
         axes.axhline(coefficient, color=BLACK, linestyle=":", linewidth=1.2,
                      label=f"local coefficient µ = {coefficient:g}")
@@ -74,11 +78,12 @@ def friction(axes, history, boundary, window, coefficient):
     if len(seen):  # not the first rows, where both forces are near zero
         reach = [*np.percentile(seen, [0.5, 99.5]), mean, mean if coefficient is None else coefficient]
         margin = 0.25 * (max(reach) - min(reach)) + 1e-6
-        axes.set_ylim(min(reach) - margin, max(reach) + 1.8 * margin)
+        axes.set_ylim(min(reach) - margin, max(reach) + margin)
     axes.set_xlim(history.time[0] * MICRO, history.time[-1] * MICRO)
-    axes.legend(loc="upper left", framealpha=0.9)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False, fontsize="small")
     axes.grid(alpha=0.25)
-    axes.set(title=f"(b) Global friction, measured at `{boundary}`", xlabel="time [µs]", ylabel=f"{name} [1]")
+    axes.set_title(f"(b) Global friction, measured at `{boundary}`", pad=38)
+    axes.set(xlabel="time [µs]", ylabel=f"{name} [1]")
 
 
 def friction_signal(history, boundary, rows):
@@ -167,14 +172,17 @@ def energy_ledger(axes, history):
     if largest > 0:
         axes.set_ylim(largest * 1e-6, largest * 3)
         axes.grid(alpha=0.25)
-        axes.legend(loc="lower right", ncol=2, fontsize="small", framealpha=0.9)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2, fontsize="small", frameon=False)
     axes.set_xlim(history.time[0] * MICRO, history.time[-1] * MICRO)
     notes = [f"zero: {', '.join(zero)}"] if zero else []
     residual = relative_residual(history)
     if residual is not None:
         notes.insert(0, f"residual / energy that flowed: {residual:.1e}")
-    axes.set(title="(f) Energy ledger, absolute values" + "".join(f"\n{note}" for note in notes),
-             xlabel="time [µs]", ylabel="energy [J/m]")
+    notes = [line for note in notes for line in textwrap.wrap(note, 60)]
+    axes.set_title("(f) Energy ledger, absolute values", pad=6 + 11 * len(notes))
+    axes.annotate("\n".join(notes), (0.5, 1), (0, 3), xycoords="axes fraction", textcoords="offset points", ha="center",
+                  va="bottom", fontsize="x-small")
+    axes.set(xlabel="time [µs]", ylabel="energy [J/m]")
 
 
 def relative_residual(history):

@@ -1,35 +1,22 @@
 """One run at a glance: phase portrait, friction and its spectrum, contact map, stress, energy.
 
-    PYTHONPATH=runs python3 -m slipscale.pictures.picture out/first picture.png [--window 2.5e-4 4e-4] [--point 0]
+    slipscale picture out/first picture.png [--window 2.5e-4 4e-4] [--point 0]
 
 Works on a run that is still going. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-import argparse
-import sys
+import textwrap
 
 import numpy as np
 
-from slipscale.measuring.window import MICRO, rows_in
+from slipscale.measuring.averages import ratio_of_means, settling, with_error
+from slipscale.measuring.window import MICRO, choose_window, rows_in
+from slipscale.parser import Parser
 from slipscale.pictures import panels
-from slipscale.pictures.drawing import plt, write_picture
+from slipscale.pictures.drawing import plt, shown, write_picture
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
-FEWEST_ROWS = 32  # in the window: enough for three segments of a spectrum
 PERIODS_IN_MAP = 12
-
-
-def choose_window(time, window):
-    """The window asked for, cut to the run; by default the last three eighths of the run."""
-    begin, end = window or (time[0] + 0.625 * (time[-1] - time[0]), time[-1])
-    begin, end = max(begin, time[0]), min(end, time[-1])
-    rows = rows_in(time, (begin, end))
-    if rows.stop - rows.start < FEWEST_ROWS:
-        raise UnreadableRun(
-            f"Only {max(0, rows.stop - rows.start)} rows are recorded between {begin:g} and {end:g} s (the run has "
-            f"reached {time[-1]:g} s) and a spectrum needs {FEWEST_ROWS}: choose another window, wait, or lower "
-            "history_every.")
-    return begin, end
 
 
 def draw(folder, window=None, point=0):
@@ -65,14 +52,16 @@ def draw(folder, window=None, point=0):
 
 
 def headline(folder, history, summary, boundary, window, dominant):
-    """Two lines: the folder and how far the run got; the numbers a reader compares."""
+    """Up to three lines: the folder and how far the run got; the numbers a reader compares."""
     rows = rows_in(history.time, window)
     planned, reached = summary.number("time_end"), history.time[-1]
     state = f"{reached * MICRO:.4g} µs"
     if planned is not None and reached < 0.999 * planned:
         state += f" of {planned * MICRO:.4g} µs: still running, or stopped early"
-    numbers = [f"mean T / mean N = {history.mean_friction(boundary, rows):.4f}",
-               f"mean N = {np.mean(history.boundary[boundary]['normal_force'][rows]) / 1e3:.1f} kN/m"]
+    normal, tangential = (history.boundary[boundary][f"{force}_force"][rows] for force in ("normal", "tangential"))
+    numbers = [f"mean T / mean N = {with_error(*ratio_of_means(tangential, normal))}"
+               if np.mean(normal) > 0 else "no load", f"mean N = {np.mean(normal) / 1e3:.4g} kN/m",
+               "settled" if settling(tangential).settled else "NOT SETTLED"]
     if dominant:
         numbers.append(f"dominant frequency {dominant / 1e3:.1f} kHz")
     shares = [f"{name} {100 * np.mean(history.contact[name][rows]):.0f} %"
@@ -82,17 +71,16 @@ def headline(folder, history, summary, boundary, window, dominant):
     residual = panels.relative_residual(history)
     if residual is not None:
         numbers.append(f"energy residual {residual:.0e}")
-    return f"{folder}: {state}\n" + "   |   ".join(numbers)
+    lines = [f"{shown(folder)}: {state}", *("   |   ".join(numbers[k:k + 4]) for k in (0, 4) if numbers[k:])]
+    if doubt := summary.headline.get("aliases"):
+        lines += textwrap.wrap(str(doubt), 150)[:2]
+    return "\n".join(lines)
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("picture", __doc__)
     parser.add_argument("folder", help="output folder of a slide run")
     parser.add_argument("--window", nargs=2, type=float, metavar=("BEGIN", "END"),
-                        help="times [s] for means and spectra (default: the last three eighths of the run)")
+                        help="times [s] for means and spectra (default: the second half of the run)")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portrait (default 0)")
     return write_picture(parser, lambda options: draw(options.folder, options.window, options.point), arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,23 +1,22 @@
 """Relocalised against heterogeneous stress: four maps, and histories in matrix and inclusion.
 
-    PYTHONPATH=runs /usr/bin/python3 -m slipscale.pictures.relocalized_picture REFERENCE RELOCALISED HOMOGENEOUS out.png
+    slipscale relocalized-picture REFERENCE RELOCALISED HOMOGENEOUS out.png
         [--component yy] [--time 4e-5 | --statistic mean]
 
 The folders are those of the heterogeneous `slide` run, of `relocalize` and of the homogeneous `slide` run. Everything
 is compared at the cells of the heterogeneous run. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
-import argparse
-import sys
 from contextlib import ExitStack
-from pathlib import Path
 
 import numpy as np
 
 from slipscale.measuring.window import MICRO
+from slipscale.parser import Parser
+from slipscale.pictures import belonging
 from slipscale.pictures.drawing import colours_for, draw_cells, length_unit, plt, write_picture
 from slipscale.pictures.local_history import (MEGA, cells_in, heterogeneous_history, history_panel, in_digits,
-                                              relative_error)
+                                              legend_below, relative_error)
 from slipscale.pictures.panels import say
 from slipscale.reading import Fields, Statistics, UnreadableRun
 from slipscale.reading.mesh import centroids_and_areas
@@ -32,11 +31,14 @@ class Compared:
     """One component of the stress on the cells of the heterogeneous run's mesh.
 
     mesh, the opened file; area [nc] m2; stress[name] [nc] MPa for each of NAMES, nan where a run has no cell;
-    error[name] the relative L2 errors; `when` says what is shown.
+    error[name] the relative L2 errors; drawn[name], a mesh and its values [MPa], of what has a morphology of its own;
+    `when` says what is shown.
     """
 
     def __init__(self, files, stresses, component, when):
-        self.mesh, self.when = files[0], when
+        self.mesh, self.when, self.drawn = files[0], when, {}
+        if not belonging.same_morphology(files[1], files[0]):
+            self.drawn["relocalised"] = files[1], MEGA * stresses[1][:, component]
         self.centroid, self.area = centroids_and_areas(files[0].coordinates, files[0].triangles,
                                                        files[0].cell_of_triangle)
         self.stress = {name: MEGA * at_points(file, stress[:, component], self.centroid)
@@ -55,20 +57,22 @@ def at_points(file, values, points):
     return np.where(cells >= 0, values[cells], np.nan)
 
 
-def field_panels(figure, axes, compared, name):
-    """Heterogeneous, relocalised and homogeneous stress in one colour scale, and the error of the relocalised."""
+def field_panels(figure, axes, compared, name, word):
+    """Heterogeneous, relocalised and homogeneous stress in one colour scale, and the error of the relocalised, or
+    difference where that is the `word` for it."""
     stress, seen = compared.stress, compared.mesh
     both = np.concatenate([stress[each][np.isfinite(stress[each])] for each in NAMES[:2]])
     colours = colours_for(both, 0.5)
     for panel, letter, each in zip(axes, "abc", NAMES):
-        image = draw_cells(panel, seen, stress[each], colours, linewidth=0.6)
-        panel.set_title(f"({letter}) {each}" + (f": error {in_digits(compared.error[each])}" if letter > "a" else ""))
+        mesh, values = compared.drawn.get(each, (seen, stress[each]))
+        image = draw_cells(panel, mesh, values, colours, linewidth=0.6)
+        panel.set_title(f"({letter}) {each}" + (f": {word} {in_digits(compared.error[each])}" if letter > "a" else ""))
         figure.colorbar(image, ax=panel, label=f"{name} [MPa]", extend="both", pad=0.02)
     error = stress["relocalised"] - stress["heterogeneous"]
     reach = np.nanpercentile(np.abs(error), 99)
     image = draw_cells(axes[3], seen, error, ("RdBu_r", -reach, reach), linewidth=0.6)
     axes[3].set_title("(d) relocalised less heterogeneous")
-    figure.colorbar(image, ax=axes[3], label=f"error of {name} [MPa]", extend="both", pad=0.02)
+    figure.colorbar(image, ax=axes[3], label=f"{word} of {name} [MPa]", extend="both", pad=0.02)
 
 
 def chosen_points(points):
@@ -106,18 +110,19 @@ def panels_for(coordinates):
 
 
 def compare(folders, opened, component, time, statistic):
-    """What the maps show, and its time or None for a statistic. `opened` closes the files."""
+    """What the maps show, its time or None for a statistic, and the `belonging.notes`. `opened` closes the files."""
     reference, relocalised, homogeneous = folders
     kind, name = (Statistics, "relocalized_statistics.h5") if statistic else (Fields, "relocalized.h5")
     sources = ((reference,), (relocalised, name, "relocalize"), (homogeneous,))
     files = [opened.enter_context(kind(*source)) for source in sources]
+    said = belonging.notes(files, folders)
     if statistic:
         begin, end = (x * MICRO for x in files[0].window)
         return Compared(files, [file.read(statistic) for file in files], component,
-                        f"{statistic.replace('_', ' ')} over {begin:.4g}–{end:.4g} µs"), None
+                        f"{statistic.replace('_', ' ')} over {begin:.4g}–{end:.4g} µs"), None, said
     shown = files[1].time[files[1].nearest(time)]
     stresses = [file.read("stress", file.nearest(shown)) for file in files]
-    return Compared(files, stresses, component, f"{shown * MICRO:.4g} µs"), shown
+    return Compared(files, stresses, component, f"{shown * MICRO:.4g} µs"), shown, said
 
 
 def draw(reference, relocalised, homogeneous, component="yy", time=None, statistic=None):
@@ -125,9 +130,10 @@ def draw(reference, relocalised, homogeneous, component="yy", time=None, statist
     index = COMPONENTS.index(component)
     name = rf"$\sigma_{{{component}}}$"
     with ExitStack() as opened:
-        compared, shown = compare((reference, relocalised, homogeneous), opened, index, time, statistic)
+        compared, shown, (notes, same) = compare((reference, relocalised, homogeneous), opened, index, time, statistic)
         figure, maps, histories = panels_for(compared.mesh.coordinates)
-        field_panels(figure, maps, compared, name)
+        word = "error" if same else "difference"
+        field_panels(figure, maps, compared, name, word)
         try:
             points = opened.enter_context(Fields(relocalised, "relocalized.h5", "relocalize")).local_points()
             fields = opened.enter_context(Fields(reference))
@@ -135,15 +141,16 @@ def draw(reference, relocalised, homogeneous, component="yy", time=None, statist
         except UnreadableRun as error:
             for panel in histories:
                 say(panel, "Local stress over time", str(error))
+        legend_below(figure, histories)
         before, after = compared.error["homogeneous"], compared.error["relocalised"]
-        figure.suptitle(f"{Path(relocalised)} against {Path(reference)}: {name}, {compared.when}\n"
-                        f"relative L2 error: homogeneous {in_digits(before)}   |   relocalised {in_digits(after)}",
-                        fontsize="large", fontweight="bold")
+        figure.suptitle("\n".join([f"Local stress {name}, {compared.when}: heterogeneous, relocalised, homogeneous", *notes,
+                                   f"relative L2 {word}: homogeneous {in_digits(before)}   |   relocalised "
+                                   f"{in_digits(after)}"]), fontsize="large", fontweight="bold")
     return figure
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("relocalized-picture", __doc__)
     parser.add_argument("reference", help="output folder of the heterogeneous slide run")
     parser.add_argument("relocalised", help="output folder of relocalize")
     parser.add_argument("homogeneous", help="output folder of the homogeneous slide run")
@@ -153,7 +160,3 @@ def main(arguments=None):
     what.add_argument("--statistic", choices=STATISTICS, help="a statistic over time in place of a frame")
     return write_picture(parser, lambda options: draw(options.reference, options.relocalised, options.homogeneous,
                                                       options.component, options.time, options.statistic), arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,10 +1,12 @@
 """Opens the files of a run. A run that is still going, or was killed, can be read too."""
 
 import h5py
-import yaml
+
+from slipscale.mistakes import Mistake
+from slipscale.reading.yaml_file import load
 
 
-class UnreadableRun(Exception):
+class UnreadableRun(Mistake):
     """What is missing or wrong in an output folder, in one sentence."""
 
 
@@ -29,10 +31,7 @@ def read_yaml(path):
     """A YAML file of flat keys as a dict; empty when there is no such file (a run writes its summary at the end)."""
     if not path.is_file():
         return {}
-    try:
-        return yaml.safe_load(path.read_text()) or {}
-    except yaml.YAMLError as error:
-        raise UnreadableRun(f"{path} is not valid YAML ({' '.join(str(error).split())}).") from error
+    return load(path, written=True) or {}
 
 
 def grows(dataset):

@@ -1,7 +1,6 @@
 """Triangles, outlines, areas and places of a mesh, for plotting."""
 
 import numpy as np
-from matplotlib.tri import Triangulation
 
 XDMF_CORNERS = {4: 3, 5: 4}  # cell types of XDMF's Mixed topology: triangle, quadrilateral
 
@@ -55,6 +54,8 @@ def cells_at(coordinates, triangles, cell_of_triangle, points):
     Points of the mesh at the same place count as one: a seam that is written twice is none. Raises RuntimeError when
     triangles overlap.
     """
+    from matplotlib.tri import Triangulation  # its search for the triangle; nothing is drawn
+
     size = np.ptp(coordinates, axis=0).max()
     _, first, merged = np.unique(np.round(coordinates / (1e-9 * size)), axis=0, return_index=True, return_inverse=True)
     corners = merged.ravel()[triangles]

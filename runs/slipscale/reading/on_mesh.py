@@ -25,7 +25,7 @@ class LocalPoint:
 class OnMesh:
     """A file that holds a mesh and what lies on it. Also a context manager: it stays open.
 
-    path; coordinates [np, 2] m; region [nc] and region_names; triangles [nt, 3] point numbers (a quadrilateral gives
+    path; mesh_checksum; coordinates [np, 2] m; region [nc] and region_names; triangles [nt, 3] point numbers (a quadrilateral gives
     two) and cell_of_triangle [nt].
     """
 
@@ -34,6 +34,7 @@ class OnMesh:
         self._file = open_hdf5(path, program)
         self.coordinates = read_dataset(self._file, "mesh/coordinates")[:, :2]
         self.region = read_dataset(self._file, "mesh/region").ravel()
+        self.mesh_checksum = self._file.attrs.get("mesh_checksum", "")  # of the mesh file, where it is known
         self.region_names = [name.decode() for name in self._file["mesh/region"].attrs.get("names", [])]
         self.triangles, self.cell_of_triangle = triangles_of(read_dataset(self._file, "mesh/cells"))
 
@@ -65,6 +66,9 @@ class Fields(OnMesh):
 
     def read(self, name, frame=-1):
         return read_dataset(self._file, f"frames/{self._frames[frame]}/{name}")
+
+    def holds(self, name, frame=-1):
+        return name in self._file[f"frames/{self._frames[frame]}"]
 
     def cell_history(self, name, cell):
         """The values [m, 3] of one cell in all frames."""

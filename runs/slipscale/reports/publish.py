@@ -2,9 +2,8 @@
 
 from pathlib import Path
 
-import yaml
-
 from slipscale.pictures.drawing import keep_small
+from slipscale.reading.yaml_file import load
 from slipscale.running.table import replace_between, write_whole
 
 
@@ -36,7 +35,7 @@ def publish(text, report, readme=None, pictures=(), others=()):
     for picture in map(Path, dict.fromkeys([*pictures, *others])):
         if picture.name != "outcome.yaml":
             drawn.append((picture, picture.name))
-        elif (said := yaml.safe_load(picture.read_text()))["status"] == "ok":
+        elif (said := load(picture, written=True))["status"] == "ok":
             if str(picture) in map(str, pictures):
                 drawn.append((picture.parent / "picture.png", f"{picture.parent.name}.png"))
         else:

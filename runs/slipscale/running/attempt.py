@@ -1,6 +1,6 @@
 """Runs a program and writes how it ended, so that a study keeps its failures beside its results.
 
-    PYTHONPATH=runs python3 -m slipscale.running.attempt FOLDER/outcome.yaml [--after OTHER/outcome.yaml] [--limit SECONDS]
+    python3 -m slipscale.running.attempt FOLDER/outcome.yaml [--after OTHER/outcome.yaml] [--limit SECONDS]
         [--set name=value ...] -- program arguments ...
 
 outcome.yaml: `options`, what --set names; `status`, ok or failed; `reason`, the last thing said by a program that
@@ -10,7 +10,6 @@ failure is a result. An interrupted program (SIGINT, SIGTERM, SIGHUP) is none: i
 is 1.
 """
 
-import argparse
 import os
 import resource
 import shlex
@@ -22,7 +21,12 @@ from pathlib import Path
 
 import yaml
 
+from slipscale.parser import Parser
+from slipscale.reading.yaml_file import load
+
 INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+# A program that is started without mpirun needs no daemon of Open MPI's: a process less for each short run.
+ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}
 FAILED_BEFORE = "the run was not started"
 
 
@@ -38,7 +42,7 @@ def run(command, log, limit=None):
     with log.open("wb") as file:
         try:
             done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT,
-                                  timeout=limit)
+                                  timeout=limit, env={**ALONE, **os.environ})
         except subprocess.TimeoutExpired:
             return f"it took longer than {limit:g} s"
         except OSError as error:
@@ -52,7 +56,7 @@ def run(command, log, limit=None):
 
 def number_or_text(text):
     """What a command line or a table says: an int, a float, the text, or None for nothing."""
-    for kind in (int, float):
+    for kind in (int, float) if "_" not in text else ():
         try:
             return kind(text)
         except ValueError:
@@ -77,7 +81,7 @@ def cpu_seconds():
 def attempt(outcome, command, options=None, after=(), limit=None):
     """Runs `command` and writes the outcome (a path). Returns what was written, as a dict."""
     outcome.parent.mkdir(parents=True, exist_ok=True)
-    reasons = [earlier["reason"] for earlier in (yaml.safe_load(path.read_text()) for path in after)
+    reasons = [earlier["reason"] for earlier in (load(path, written=True) for path in after)
                if earlier["status"] != "ok"]
     start, computed = time.monotonic(), cpu_seconds()
     reason = f"{FAILED_BEFORE}: {reasons[0]}" if reasons else run(command, outcome.parent / "log.txt", limit)
@@ -90,7 +94,7 @@ def attempt(outcome, command, options=None, after=(), limit=None):
 
 def main(arguments=None):
     arguments = sys.argv[1:] if arguments is None else arguments
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser("slipscale.running.attempt", __doc__, "python3 -m")
     parser.add_argument("outcome", type=Path, help="YAML file to write")
     parser.add_argument("--after", type=Path, nargs="*", default=[], help="outcomes that have to be ok")
     parser.add_argument("--limit", type=float, help="seconds after which the program is ended")

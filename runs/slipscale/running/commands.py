@@ -10,15 +10,18 @@ def word(value):
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def flat(options):
-    """A dict of options without nesting, names joined with '_', as in a scene: {time: {end: 1}} is time_end 1."""
-    found = {}
+def pairs_of(options):
+    """Pairs of name and value, names joined with '_', as in a scene: {time: {end: 1}} is time_end 1."""
     for name, value in options.items():
         if isinstance(value, dict):
-            found.update(flat({f"{name}_{inner}": deeper for inner, deeper in value.items()}))
+            yield from pairs_of({f"{name}_{inner}": deeper for inner, deeper in value.items()})
         else:
-            found[name] = value
-    return found
+            yield name, value
+
+
+def flat(options):
+    """A dict of options without nesting; of a name that is there several times the last."""
+    return dict(pairs_of(options))
 
 
 def words(options):

@@ -15,6 +15,7 @@ import subprocess
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 
+from slipscale.mistakes import Mistake
 from slipscale.running.attempt import number_or_text
 from slipscale.running.commands import word
 from slipscale.running.table import read_csv
@@ -25,10 +26,6 @@ LIST = "numbers"  # how the manual's kind of an option that takes a list begins
 SET_BY_THE_STUDY = {"output_folder": "the study gives each run a folder",
                     "options_file_yaml": "put its options in `scene`"}
 PETSC = ("log_view", "options_view", "options_left", "malloc_", "memory_view")
-
-
-class Mistake(Exception):
-    """What is wrong with what was asked for, in one sentence."""
 
 
 def plain(number):

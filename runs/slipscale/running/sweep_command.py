@@ -1,25 +1,31 @@
 """A sweep from the command line: writes its study.yaml and starts snakemake on it, nothing more.
 
-    runs/sweep/run.sh [-options_file_yaml SCENE.yaml] [--recipe BLOCK.yaml] -friction_coefficient 0.1:0.1:0.8
-        -surface_speed 1,2,4 [-any_option value] [--output out/mine] [-- -c4]
+    slipscale sweep [SCENE.yaml] [--recipe BLOCK.yaml] -friction_coefficient 0.1:0.1:0.8 -surface_speed 1,2,4
+        [-any_option value] [--output out/mine] [--dry-run] [-- -c4]
 
 Options of slide and morphology with one minus; those with several values are varied, and every combination is run.
   start:step:stop   a range; start:*factor:stop too          1,2,5   several values
   [0,-1],[0,-2]     values that are lists; of an option that takes a list, 0,-1 is one value
-What else the scene and the block are made of stands in study.yaml, or in the files given in its place. Behind -- stand
-words for snakemake: -c4 for four cores (else all), -n to see what would be run, --profile runs/profiles/slurm.
+The scene may be given as for slide, -options_file_yaml SCENE.yaml. What else the scene and the block are made of stands
+in the study.yaml of the folder runs/sweep, or in the files given in its place. Everything is found and written from where
+the command is given; all of it, the engine's notes included, below --output. Behind -- stand words for snakemake: -c4 for
+four cores (else all), --profile runs/profiles/slurm.
 """
 
-import argparse
 import os
+import shutil
 import sys
 from pathlib import Path
 
 import yaml
 
+from slipscale.mistakes import Mistake
+from slipscale.parser import Parser
+from slipscale.reading import yaml_file
+from slipscale.running import programs
 from slipscale.running.attempt import write_whole
-from slipscale.running.commands import flat
-from slipscale.running.sweep import Mistake, takes_list, values_of
+from slipscale.running.commands import flat, pairs_of
+from slipscale.running.sweep import takes_list, values_of
 from slipscale.running.sweep_plan import manuals_of, plan, program_of
 
 FILE = "options_file_yaml"
@@ -45,13 +51,14 @@ def paired(words):
 
 
 def read_options(path):
-    try:
-        options = yaml.safe_load(Path(path).read_text())
-    except (OSError, yaml.YAMLError) as error:
-        raise Mistake(f"{path} cannot be read as YAML ({' '.join(str(error).split())}).") from error
-    if not isinstance(options, dict):
-        raise Mistake(f"{path} should hold options, as friction: {{coefficient: 0.3}}.")
-    return {name: value for name, value in flat(options).items() if name != "output_folder"}
+    """The flat options of a file, but for the folder. Raises Mistake."""
+    found = {}
+    for name, value in pairs_of(yaml_file.options(path)):
+        if name in found:
+            raise Mistake(f"{path}: {name} is given twice (keys join with _); keep one")
+        found[name] = value
+    found.pop("output_folder", None)
+    return found
 
 
 def study_of(base, options, recipe=None, rows=None, window=None, output=None, ranks=None, manuals=None):
@@ -91,41 +98,78 @@ def found_from_here(files):
     return str(Path(files).resolve()) if Path(files).is_file() else files
 
 
-def main(arguments=None):
-    folder, *words = sys.argv[1:] if arguments is None else arguments
-    cut = words.index("--") if "--" in words else len(words)
-    parser = argparse.ArgumentParser("run.sh", description=__doc__, allow_abbrev=False,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+SHIPPED = Path(__file__).resolve().parents[2] / "sweep"  # the folder of the Snakefile and of a study.yaml
+
+
+def parsed(words):
+    """What was asked for, with `options`, pairs of name and text. Raises Mistake."""
+    parser = Parser("sweep", __doc__)
+    parser.add_argument("scene", nargs="*", help="YAML files, as with -options_file_yaml")
     parser.add_argument("--recipe", help="YAML file, options of morphology for the block")
     parser.add_argument("--list", help="CSV file of combinations to run, a column for each option")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of the averages, s")
+    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of the averages, s "
+                        "(default: the second half of each run)")
     parser.add_argument("--output", help="folder (default: below out/sweeps, by the names of what is varied)")
     parser.add_argument("--ranks", type=int, help="of each run")
-    parser.add_argument("--programs", help="folder of the programs")
-    top = Path(folder).resolve().parents[1]
-    try:
-        options, left = paired(words[:cut])
-        given = parser.parse_args(left)
-        base = yaml.safe_load((Path(folder) / "study.yaml").read_text())
-        base.update({"programs": str(Path(given.programs).resolve())} if given.programs else {})
-        manuals = manuals_of(top / base["programs"])
-        study = study_of(base, options, given.recipe, given.list, given.window, given.output, given.ranks, manuals)
-        os.chdir(top)
-        count = len(plan(study, manuals).runs)
-    except Mistake as mistake:
-        print(f"run.sh: {mistake}", file=sys.stderr)
-        return 2
-    out = top / study["output"]
-    out.mkdir(parents=True, exist_ok=True)
-    write_whole(out / "study.yaml", yaml.safe_dump(study, sort_keys=False, allow_unicode=True))
-    print(f"{count} runs; the study: {out}/study.yaml\ntable:   {out}/table.csv\npicture: {out}/picture/picture.png",
-          flush=True)
-    snakemake = ["snakemake", "--snakefile", f"{folder}/Snakefile", "--config", f"study={out}/study.yaml"]
-    more = words[cut + 1:]
+    parser.add_argument("--programs", help="folder of the programs (default: those beside this command)")
+    parser.add_argument("--study", default=SHIPPED, help="a copy of the folder runs/sweep whose study.yaml is meant")
+    parser.add_argument("--dry-run", action="store_true", help="only say what would be run")
+    options, left = paired(words)
+    asked = parser.parse_args(left)
+    asked.options = [*((FILE, file) for file in asked.scene), *options]
+    return asked
+
+
+def planned(asked):
+    """The study.yaml, a dict, and the plan. Raises Mistake."""
+    base = yaml_file.options(Path(asked.study) / "study.yaml")
+    base["programs"] = str(programs.folder(asked.programs or base.get("programs")))
+    manuals = manuals_of(base["programs"])
+    study = study_of(base, asked.options, asked.recipe, asked.list, asked.window, asked.output, asked.ranks, manuals)
+    study["output"] = str(Path(study["output"]).resolve())
+    return study, plan(study, manuals)
+
+
+def counted(things, one, several):
+    return f"{len(things)} {one if len(things) == 1 else several}" if things else ""
+
+
+def said(study, found):
+    """How much is to be run and where it will be, a text."""
+    counts = [counted(found.runs, "run", "runs"), counted(found.meshes, "mesh", "meshes"),
+              counted(found.effectives, "effective material", "effective materials")]
+    out = study["output"]
+    return (f"{', '.join(filter(None, counts))}; the study: {out}/study.yaml\ntable:   {out}/table.csv\n"
+            f"picture: {out}/picture/picture.png")
+
+
+def snakefile_of(folder):
+    """Its own, of a copy beside the studies, else the one that is shipped."""
+    own = Path(folder).resolve() / "Snakefile"
+    return str(own if own.is_file() else SHIPPED / "Snakefile")
+
+
+def snakemake(study, folder, more, dry):
+    """The words that start the engine, its notes being kept in the output folder."""
     if not any(word.startswith(("-c", "--cores", "--profile", "-j", "--jobs")) for word in more):
         more = ["--cores", "all", *more]
-    os.execvp(snakemake[0], [*snakemake, "--rerun-incomplete", *more])
+    out = study["output"]
+    return ["snakemake", "--snakefile", snakefile_of(folder), "--directory", out, "--config",
+            f"study={out}/study.yaml", "--rerun-incomplete", *(["--dry-run", "--quiet", "all"] if dry else []), *more]
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def main(arguments=None):
+    words = sys.argv[1:] if arguments is None else arguments
+    cut = words.index("--") if "--" in words else len(words)
+    asked = parsed(words[:cut])
+    if not shutil.which("snakemake"):
+        raise Mistake("snakemake, which starts the runs, is not installed: cmake/install-dependencies.sh installs it")
+    study, found = planned(asked)
+    print(said(study, found), flush=True)
+    if asked.dry_run and not words[cut + 1:]:
+        return 0
+    out = Path(study["output"])
+    out.mkdir(parents=True, exist_ok=True)
+    write_whole(out / "study.yaml", yaml.safe_dump(study, sort_keys=False, allow_unicode=True))
+    command = snakemake(study, asked.study, words[cut + 1:], asked.dry_run)
+    os.execvp(command[0], command)

@@ -7,8 +7,9 @@ the recipe of what is homogenised, and `options` of homogenize), `scene` (option
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from slipscale.mistakes import Mistake
 from slipscale.running.commands import flat
-from slipscale.running.sweep import Mistake, check, combinations, manual, name_of, named, owner
+from slipscale.running.sweep import check, combinations, manual, name_of, named, owner
 
 PROGRAMS = ("slide", "morphology", "homogenize")
 BLOCK, COMPOSITE = "block", "composite"

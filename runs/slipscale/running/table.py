@@ -5,8 +5,7 @@ import io
 import itertools
 from pathlib import Path
 
-import yaml
-
+from slipscale.reading.yaml_file import load
 from slipscale.running.attempt import number_or_text, write_whole
 
 OUTCOME = ("status", "reason", "wall_seconds")
@@ -43,7 +42,7 @@ def collect(outcomes, read):
     is ok what `read(folder)` gives."""
     rows = []
     for path in map(Path, outcomes):
-        outcome = yaml.safe_load(path.read_text())
+        outcome = load(path, written=True)
         row = {**outcome["options"], **{name: outcome[name] for name in OUTCOME}}
         if outcome["status"] == "ok":
             found = read(path.parent)

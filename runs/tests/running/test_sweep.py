@@ -4,8 +4,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from slipscale.mistakes import Mistake
 from slipscale.running import sweep
-from slipscale.running.sweep import Mistake, values_of
+from slipscale.running.sweep import values_of
 
 MANUALS = {
     "slide": sweep.options_in("""slide: says what it is

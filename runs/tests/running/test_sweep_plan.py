@@ -4,7 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from slipscale.running.sweep import Mistake
+from slipscale.mistakes import Mistake
 from slipscale.running.sweep_plan import plan
 
 NUMBER = "a number > 0 (m)"

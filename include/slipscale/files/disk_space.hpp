@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace slipscale {
+
+/// The sentence for the user: what could not be written, the system's reason, the cure.
+std::string write_fault(const std::string& path, const std::string& reason);
+
+/// Sets room aside for bytes [from, from + bytes) of a file, or throws `LibraryError` with the system's words
+/// ("No space left on device", or that the file is gone) and leaves the file as it was.
+///
+/// HDF5 needs this: it goes on after a write that failed, and leaves a file nobody can open. Where the file
+/// system cannot reserve (ext2, NFS), the room behind the file's end is filled with zeros, which HDF5
+/// overwrites; otherwise the file's size does not change. `from` must not lie before data that count.
+void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t bytes);
+
+/// What `reserve_space` does where the system cannot: the file gets this size, of zeros that are on the disk.
+void fill_with_zeros(const std::string& path, std::uint64_t size);
+
+/// Gives back what was set aside behind the end of a file of this size.
+void give_back_space(const std::string& path, std::uint64_t size);
+
+}  // namespace slipscale

@@ -1,0 +1,99 @@
+"""The page of one run of `slide`."""
+
+import shlex
+from pathlib import Path
+
+import numpy as np
+
+from slipscale.mistakes import Mistake
+from slipscale.pictures.picture import draw
+from slipscale.reports import html
+from slipscale.reports.commented_yaml import group_of, rows_of
+from slipscale.run import Run
+
+SOUND_RESIDUAL = 1e-9  # of the energy that flowed: rounding stays far below
+SETTLED = 0.05  # amplitudes of the two halves of the window may differ by this part
+
+
+def run_page(folder):
+    run = Run(folder)
+    body = [f"<h1>{html.text(Path(folder).resolve().name)}</h1>", f'<p class="lead">{html.text(lead(run))}</p>',
+            html.warnings(warnings(run)), html.cards(headline(run)), picture(folder),
+            html.section("To repeat it", f"<pre>{html.text(command(run))}</pre>"),
+            html.section("Numbers", html.table(rows_of(run.folder / "summary.yaml"))),
+            html.section("Energy ledger at the end, J per metre of depth", html.table(ledger(run))),
+            html.section("Mesh and step", html.table(group_of(run.folder / "run.yaml", "run"))),
+            html.section("Every option in effect", '<div class="columns">' + html.table(
+                rows_of(run.folder / "run.yaml", without=("run",))) + "</div>")]
+    return html.document(f"slipscale: {Path(folder).resolve().name}", "\n".join(part for part in body if part),
+                         f"slide {run.facts.get('version', '')}; all quantities in SI units")
+
+
+def lead(run):
+    reached, planned = run.time[-1], number(run.options.get("time_end"))
+    text = f"{reached * 1e6:.4g} µs of sliding contact"
+    if run.facts:
+        text += f", {run.facts.get('nodes')} nodes, {run.facts.get('ranks')} ranks"
+    if not run.summary:
+        text += f"; the run has not ended (planned: {planned * 1e6:.4g} µs)" if planned else "; the run has not ended"
+    return text
+
+
+def number(value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return None
+
+
+def headline(run):
+    try:
+        found = run.measures()
+    except Mistake:
+        return []
+    cards = [(f"{found['friction']:.4f}", "mean tangential over mean normal force"),
+             (found["regime"], "regime"),
+             (f"{found['frequency'] / 1e3:.4g} kHz" if found["frequency"] else "none", "strongest frequency of friction"),
+             (f"{100 * found['stick']:.1f} / {100 * found['slip']:.1f} / {100 * found['open']:.1f} %",
+              "of the contact sticks / slips / is open"),
+             (f"{found['normal_force'] / 1e3:.4g} kN/m", "mean normal force")]
+    begin, end = run.window()
+    return cards + [(f"{begin * 1e6:.4g} to {end * 1e6:.4g} µs", "window of these numbers")]
+
+
+def warnings(run):
+    said = [str(note) for note in listed(run.summary.get("notes")) + listed(run.facts.get("notes"))
+            + listed(run.summary.get("warnings"))]
+    residual = number((run.summary.get("energy") or {}).get("largest_relative_residual"))
+    if residual is not None and not abs(residual) <= SOUND_RESIDUAL:
+        said.append(f"The energy balance misses {residual:.1e} of what flowed: more than rounding.")
+    try:
+        settled = run.measures()["settled"]
+        if abs(settled - 1) > SETTLED:
+            said.append(f"The run had not settled: the amplitude of friction in the last quarter is {settled:.3g} times "
+                        "that of the quarter before, so its averages belong to this window only.")
+    except Mistake as few:
+        said.append(str(few))
+    return said
+
+
+def listed(value):
+    return value if isinstance(value, list) else [value] if value else []
+
+
+def picture(folder):
+    try:
+        return html.figure(draw(folder), "the run at a glance")
+    except Mistake as reason:
+        return html.warnings([str(reason)])
+
+
+def command(run):
+    ranks = run.facts.get("ranks", 1)
+    words = ["slide", "-options_file_yaml", str(run.folder / "run.yaml")]
+    return shlex.join((["mpirun", "-n", str(ranks)] if ranks and int(ranks) > 1 else []) + words)
+
+
+def ledger(run):
+    return [(name.replace("_", " "), f"{values[-1]:.6g}", f"largest magnitude {np.max(np.abs(values)):.3g}")
+            for name, values in run.energy.items()]

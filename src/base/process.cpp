@@ -1,0 +1,23 @@
+#include "process.hpp"
+
+#include <cstdlib>
+
+namespace slipscale {
+
+void start_alone() {
+  std::signal(SIGPIPE, SIG_IGN);
+  // mpirun, and a scheduler that starts ranks by itself, leave their marks in the environment.
+  for (const char* mark : {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMI_RANK", "PMI_FD"})
+    if (std::getenv(mark)) return;
+  (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+}
+
+KeptSignals::KeptSignals() {
+  for (std::size_t k = 0; k < kept_.size(); ++k) sigaction(kept_[k], nullptr, &before_[k]);
+}
+
+KeptSignals::~KeptSignals() {
+  for (std::size_t k = 0; k < kept_.size(); ++k) sigaction(kept_[k], &before_[k], nullptr);
+}
+
+}  // namespace slipscale

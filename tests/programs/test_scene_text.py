@@ -1,0 +1,190 @@
+"""Scenes as text and the process around a run: what YAML means, where options come from, signals, pipes, versions."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+import yaml
+
+from running import SLIDE, InScratch, arguments_of, datasets, yaml_of
+from scenes import block
+
+MATERIAL = {"material_block_young": 30e9, "material_block_poisson": 0.25, "material_block_density": 1800}
+SCENE = {"mesh_file": "block.msh", **MATERIAL, "boundary_top_pressure": 1e6, "time_end": 1e-6}
+PROGRAMS = {name: os.environ["SLIPSCALE_" + name.upper()] for name in ("slide", "homogenize", "relocalize", "morphology")}
+NOISE = ("PETSC ERROR", "Caught signal", "MPI_ABORT", "WARNING!", "what():")
+
+
+def grains(path, count):
+    """A row of squares, each a region of its own, as MSH 4.1."""
+    side, nodes = 1e-3, 2 * (count + 1)
+    names = ['1 1 "bottom"', '1 2 "top"'] + [f'2 {10 + k} "grain{k}"' for k in range(count)]
+    entities = ["1 0 0 0 0 0 0 1 1 0", "2 0 0 0 0 0 0 1 2 0"] + [f"{k + 1} 0 0 0 0 0 0 1 {10 + k} 0" for k in range(count)]
+    points = [f"{k * side} {y} 0" for y in (0, side) for k in range(count + 1)]
+    elements = []
+    for curve, first in ((1, 1), (2, count + 2)):
+        elements.append(f"1 {curve} 1 {count}")
+        elements += [f"{(curve - 1) * count + k + 1} {first + k} {first + k + 1}" for k in range(count)]
+    for k in range(count):
+        elements += [f"2 {k + 1} 3 1", f"{2 * count + k + 1} {k + 1} {k + 2} {count + k + 3} {count + k + 2}"]
+    path.write_text("\n".join(
+        ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)), *names, "$EndPhysicalNames",
+         "$Entities", f"0 2 {count} 0", *entities, "$EndEntities",
+         "$Nodes", f"1 {nodes} 1 {nodes}", f"2 1 0 {nodes}", *map(str, range(1, nodes + 1)), *points, "$EndNodes",
+         "$Elements", f"{count + 2} {3 * count} 1 {3 * count}", *elements, "$EndElements", ""]))
+
+
+class SceneText(InScratch):
+    def setUp(self):
+        super().setUp()
+        block(self.folder / "block.msh", regions=("block",))
+
+    def refused(self, words, *arguments, ranks=1, seconds=20):
+        start = time.monotonic()
+        outcome = self.launch(SLIDE, *arguments, ranks=ranks)
+        self.assertLess(time.monotonic() - start, seconds)
+        self.assert_refused("slide", outcome, words, ranks)
+        return outcome
+
+    def refused_text(self, text, *words, **more):
+        (self.folder / "scene.yaml").write_bytes(text if isinstance(text, bytes) else text.encode())
+        return self.refused(words, "-options_file_yaml", "scene.yaml", **more)
+
+    def test_one_scene_has_one_meaning(self):
+        good = yaml_of(SCENE)
+        self.refused_text(good + "boundary: {top: {x: fixed}}\nboundary: {bottom: {y: fixed}}\n", "gives 'boundary' twice")
+        self.refused_text(good.encode() + b"\0damping_mass: 1e5\n", "has a NUL byte near line 7")
+        self.refused_text(good.replace("1800", "01700"), "-material_block_density is 01700", "base 8")
+        self.refused_text(good.replace("1800", "30:00"), "base 60")
+        self.refused_text(good + "output_folder: 2026-01-31\n", "-output_folder is 2026-01-31", "a date", "in quotes")
+        self.refused_text(good + "output_folder: no\n", "true or false", "in quotes")
+        self.refused_text(good + "mesh: {'a\u2028b': 3}\n", "-mesh_a b is not an option")
+
+    def test_python_reads_the_same(self):
+        text = yaml_of({**SCENE, "mesh_file": "'block.msh'", "time_end": "1e-6"}) + \
+            "mesh: {periodic: No}\noutput: {folder: 'on'}\nfields: {times: [0, 5.0e-7]}\n"
+        (self.folder / "scene.yaml").write_text(text)
+        outcome = self.slide("-options_file_yaml", "scene.yaml")
+        self.assertEqual((outcome.codes, outcome.err), ([0], ""), outcome.out)
+        run = yaml.safe_load((self.folder / "on" / "run.yaml").read_text())
+        self.assertEqual(run["output_folder"], "on")
+        for name, value in MATERIAL.items():
+            self.assertEqual(float(run[name]), value)
+        again = self.slide("-options_file_yaml", "on/run.yaml", "-output_folder", "2026-01-31")
+        self.assertEqual((again.codes, again.err), ([0], ""), again.out)
+        again = self.slide("-options_file_yaml", "2026-01-31/run.yaml")
+        self.assertEqual((again.codes, again.err), ([0], ""), again.out)
+        one, other = (datasets(self.folder / name / "history.h5") for name in ("on", "2026-01-31"))
+        for name in one:
+            self.assertEqual(one[name].tobytes(), other[name].tobytes(), name)
+
+    def test_piles_do_not_hang(self):
+        self.refused_text("a: " + "[" * 20000 + "]" * 20000 + "\n", "nested more than 50 levels deep")
+        self.refused_text("{" * 20000 + "\n", "nested more than 50 levels deep")
+        many = "".join(f"material_grain{k}_young: 1.0e+9\n" for k in range(250000))  # 8 MB
+        self.refused_text(many + "a b\n", "is not valid YAML near line 250001")
+        self.refused_text("a: {b: 1\n" + many, "is not valid YAML near line 1")
+
+    def test_hundreds_of_materials(self):
+        count = 300
+        grains(self.folder / "many.msh", count)
+        (self.folder / "many.yaml").write_text("mesh: {file: many.msh}\nmaterial:\n" + "".join(
+            f"  grain{k}: {{young: {(30 + k) * 1e9:.6g}, poisson: 0.3, density: 1800}}\n" for k in range(count)) +
+            "boundary: {top: {pressure: 1.0e+6}}\ntime: {end: 1.0e-7}\noutput: {folder: many}\n")
+        for ranks, arguments in ((1, ["-options_file_yaml", "many.yaml"]),
+                                 (2, ["-options_file_yaml", "many/run.yaml", "-output_folder", "again"])):
+            outcome = self.slide(*arguments, ranks=ranks)
+            self.assertEqual((outcome.codes, outcome.err), ([0] * ranks, ""), outcome.out)
+        one, other = (datasets(self.folder / name / "history.h5") for name in ("many", "again"))
+        for name in one:
+            self.assertEqual(one[name].tobytes(), other[name].tobytes(), name)
+        options = yaml.safe_load((self.folder / "again" / "run.yaml").read_text())
+        self.assertEqual(float(options["material_grain299_young"]), 329e9)
+        self.refused(["-material_grain7_young is -1"], "-options_file_yaml", "many.yaml", "-material_grain7_young", "-1")
+        self.refused(["did you mean -material_grain7_young?"], "-options_file_yaml", "many.yaml", "-material_grain7_yuong", "1")
+
+    def test_petscs_own_files_are_named(self):
+        good = arguments_of(SCENE)
+        (self.folder / ".petscrc").write_text("-wind_speed 3\n")
+        self.refused(["-wind_speed is not an option of slide", "(it stands in '.petscrc')"], *good)
+        (self.folder / ".petscrc").write_text("-time_beta2 3\n")
+        self.refused(["-time_beta2 is 3", "(it stands in '.petscrc')"], *good)
+        (self.folder / ".petscrc").unlink()
+        self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-wind_speed 3"}
+        for ranks in (1, 2):
+            self.refused(["(it stands in the variable PETSC_OPTIONS)"], *good, ranks=ranks)
+        self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-fp_trap cg"}
+        self.refused(["PETSC_OPTIONS", "cg"], *good)
+
+    def test_values_that_petsc_cannot_read(self):
+        good = arguments_of(SCENE)
+        for option, value in {"log_view": "mumps", "options_left": "-1", "fp_trap": "cg", "malloc_debug": "aij",
+                              "log_sync": "x", "checkstack": "maybe", "check_pointer_intensity": "aij",
+                              "malloc_view_threshold": "big", "options_view": "mumps", "on_error_abort": "cg",
+                              "no_signal_handler": "7", "log_view_memory": "7", "malloc_dump": "x"}.items():
+            for ranks in (1, 2) if option == "log_view" else (1,):
+                with self.subTest(option, ranks=ranks):
+                    self.refused([f"-{option} is '{value}'"], *good, "-" + option, value, ranks=ranks)
+        outcome = self.slide(*good, "-log_view", ":profile.txt", "-options_left", "no")
+        self.assertEqual((outcome.codes, outcome.err), ([0], ""), outcome.out)
+        self.assertIn("Summary of Stages", (self.folder / "profile.txt").read_text())
+
+    def start(self, *arguments, **more):
+        """A run that takes a minute, once it steps."""
+        long = {**SCENE, "time_end": 1, "time_step": 1e-9, "history_every": 1000000}
+        process = subprocess.Popen([SLIDE, *arguments_of(long), *arguments], cwd=self.folder, env=self.environment(),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+        self.addCleanup(lambda: (process.kill(), process.communicate()))
+        said = ""
+        while " steps to " not in said:
+            line = process.stdout.readline()
+            self.assertTrue(line, said + process.stderr.read() if process.poll() is not None else said)
+            said += line
+        return process
+
+    def test_signals_end_without_a_dump(self):
+        no_core = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_CORE, (0, 0))}
+        for number in (signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM, signal.SIGINT):
+            with self.subTest(number):
+                process = self.start(**no_core)
+                process.send_signal(number)
+                out, err = process.communicate(timeout=20)
+                self.assertEqual((process.returncode, err), (-number, ""))
+                for noise in NOISE:
+                    self.assertNotIn(noise, out)
+
+    def test_nohup_is_kept(self):
+        process = self.start(preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.send_signal(signal.SIGHUP)
+        time.sleep(0.5)
+        self.assertIsNone(process.poll())
+
+    def test_a_closed_pipe_ends_the_printing_not_the_run(self):
+        command = " ".join([f"'{SLIDE}'", *map(str, arguments_of(SCENE)), "| head -1; echo ${PIPESTATUS[0]}"])
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, env=self.environment(), capture_output=True, text=True,
+                              timeout=60)
+        self.assertEqual((done.stdout.splitlines()[-1], done.stderr), ("0", ""), done.stdout)
+        self.assertTrue((self.folder / "out" / "summary.yaml").exists())
+
+    def test_one_process_starts_no_other(self):
+        process = self.start()
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        if not children.exists():
+            self.skipTest("this kernel does not list children")
+        self.assertEqual(children.read_text().split(), [])
+
+    def test_versions(self):
+        for name, program in PROGRAMS.items():
+            for ranks in (1, 2):
+                outcome = self.launch(program, "-version", ranks=ranks)
+                libraries = r"PETSc \d+\.\d+\.\d+, Open MPI v[\d.]+, HDF5 \d+\.\d+\.\d+" + \
+                    (r", gmsh \d+\.\d+\.\d+" if name == "morphology" else "")
+                self.assertRegex(outcome.out, rf"\A{name} \d+\.\d+\.\d+( \(commit [0-9a-f]+(-dirty)?\))?, {libraries}\n\Z")
+
+
+if __name__ == "__main__":
+    unittest.main()
