@@ -111,6 +111,10 @@ bool Supports::prescribes(int slot, int axis) const {
                      [&](const Entry& entry) { return entry.slot == slot && entry.axis == axis; });
 }
 
+void Supports::start(const BoundaryNodes& nodes, Vector2* velocity) const {
+  for (const Entry& entry : entries_) velocity[nodes.node[entry.slot]][entry.axis] = 0;
+}
+
 void Supports::apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes,
                      const NodalState& state) const {
   std::size_t known = ramps_.size();

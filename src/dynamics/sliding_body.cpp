@@ -75,13 +75,15 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
 }
 
 /// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt, where the body
-/// was with the velocity that it starts with.
+/// was with the velocity that it starts with, and supports with theirs.
 void SlidingBody::start_force() {
   if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
   NodalVector past(comm_, model_.mesh.nodes, true);
+  std::copy_n(w_.data(), model_.mesh.nodes.owned, past.data());
+  supports_->start(boundary_, past.data());
   for (int i = 0; i < model_.mesh.nodes.owned; ++i)
     for (int axis = 0; axis < 2; ++axis)
-      past.data()[i][axis] = u_.data()[i][axis] - time_step_ * w_.data()[i][axis];
+      past.data()[i][axis] = u_.data()[i][axis] - time_step_ * past.data()[i][axis];
   past.begin_update();
   past.end_update();
   model_.multiply(past.data(), force_.data());

@@ -61,6 +61,8 @@ class Supports {
            const BoundaryNodes& nodes, const Vector2* initial_displacement);
   bool empty() const { return entries_.empty(); }
   bool prescribes(int slot, int axis) const;
+  /// Sets the prescribed components of a velocity to that with which every ramp begins, 0.
+  void start(const BoundaryNodes& nodes, Vector2* velocity) const;
   /// Imposes ū(next_time); reactions go into `nodes.support`.
   void apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes,
              const NodalState& state) const;
