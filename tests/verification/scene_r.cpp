@@ -26,7 +26,7 @@ Reading scene_r_at(double spacing, double step, double time, Partitioner partiti
   for (long n = 0; n <= last; ++n) body.advance(n == last);
   const Vector2 m{2.5e-3, 0};
   const double now = value_near(mesh, body.displacement_n(), m, 0),
-               next = value_near(mesh, body.displacement(), m, 0);
+               next = value_near(mesh, body.next_displacement(), m, 0);
   const Vector2 top = support_force(body, "top");
   return {now, (next - now) / step, top[0], top[1]};
 }

@@ -32,7 +32,9 @@ std::array<double, 4> corner_areas(std::span<const Vector2> corners);
 StrainDisplacement centre_strain_displacement(std::span<const Vector2> corners);
 
 /// Largest eigenvalue of M⁻¹K of one cell with the row-sum mass of density `density` [kg/m³], 1/s². The
-/// largest over all cells bounds that of the whole body from above (Irons and Treharne 1971).
+/// largest over all cells bounds that of the whole body from above (B. M. Irons, G. Treharne, "A
+/// bound theorem in eigenvalues and its practical applications", 3rd Conf. Matrix Methods in Structural
+/// Mechanics, Wright-Patterson Air Force Base, 1971).
 double largest_element_eigenvalue(std::span<const Vector2> corners, const Eigen::Matrix3d& elasticity,
                                   double density);
 
