@@ -53,7 +53,7 @@ MISTAKES = {
     "mesh is a folder": mesh(".", "-mesh_file", "cannot read"),
     "mesh is prose": mesh("prose.msh", "is not a gmsh mesh", "gmsh -2 -format msh41"),
     "mesh is binary junk": mesh("junk.msh", "is not a gmsh mesh", "gmsh -2 -format msh41"),
-    "mesh periodic in MSH 2": mesh("old_torus.msh", "MSH 2", "gmsh -format msh41", **LAYERS),
+    "mesh periodic in MSH 2": mesh("old_torus.msh", "MSH 2", "gmsh -2 -format msh41", **LAYERS),
     "mesh without names": mesh("nameless.msh", "names no region", "Physical Surface", **LAYERS),
     "two cells across": mesh("narrow.msh", "fewer than three cells", "finer", **LAYERS),
     "block as a torus": mesh("plain.msh", *OPEN_SIDES),
