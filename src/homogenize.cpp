@@ -38,6 +38,7 @@ void homogenize(Options& options) {
   const HomogenisationChoice choice = read_homogenisation(options);
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = homogenisation_mesh(comm, choice);
+  for (const std::string& note : mesh.notes) print(note + "\n");
   const std::vector<Material> materials = read_phases(options, mesh);
   end_reading(options);
 

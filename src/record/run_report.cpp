@@ -72,6 +72,8 @@ void Recorder::write_run(const Options& options) const {
     const Mesh& mesh = model.mesh;
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
     yaml.text("mesh_checksum", checksum_text(mesh.checksum), "of the mesh file");
+    for (std::size_t k = 0; k < mesh.notes.size(); ++k)
+      yaml.text(format("mesh_note_{}", k + 1), mesh.notes[k]);
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
     yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m")
         .number("block_height", mesh.upper[1] - mesh.lower[1], "m");

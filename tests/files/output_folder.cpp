@@ -88,7 +88,7 @@ TEST(OutputFolder, ReplacesTextsAsAWhole) {
     fs::remove_all(folder.path());
   });
   const std::string failure = failure_of<RunError>([&] { folder.write_text("summary.yaml", "third: 3\n"); });
-  EXPECT_NE(failure.find("summary.yaml: No such file or directory"), std::string::npos) << failure;
+  EXPECT_NE(failure.find("summary.yaml cannot be written: No such file or directory; see that"), std::string::npos) << failure;
 }
 
 TEST(OutputFolder, BelongsToOneRunAtATime) {

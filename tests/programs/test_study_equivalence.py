@@ -1,6 +1,7 @@
 """The study of equivalence in small: what its tables hold, what is run again, and what a failure leaves."""
 
 import csv
+import subprocess
 
 import studies
 
@@ -23,6 +24,21 @@ class Equivalence(studies.StudyCase):
         from equivalence.verdict import read_run
         return [read_run(self.out / f"run/{model}_{seed}_small_near_0_{coefficient}_2_{load}_T0.3_cycle", WINDOW)
                 for seed in (1, 2)]
+
+    def test_an_own_composite_as_the_readme_has_it(self):
+        """Its six runs and no others are planned, and it is said before anything runs."""
+        lines = (studies.RUNS / "equivalence" / "README.md").read_text().split("## Your own composite")[1].splitlines()
+        example = "\n".join(line[4:] for line in lines if line.startswith("    ") and "snakemake" not in line)
+        (self.folder / "mine.yaml").write_text(example)
+        done = subprocess.run(["snakemake", "-c2", "-n", "--snakefile", self.snakefile, "--configfile",
+                               self.folder / "mine.yaml", "--config", f"programs={self.folder / 'programs'}"],
+                              cwd=self.folder, capture_output=True, text=True, env=self.environment(),
+                              timeout=studies.SECONDS)
+        said = done.stdout + done.stderr
+        self.assertEqual(done.returncode, 0, said)
+        self.assertIn("6 runs: own 6; they and the table are written to out/mine", said)
+        self.assertRegex(said, r"(?m)^slide +6 ")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_equivalence_and_what_is_run_again(self):
         from equivalence.verdict import EQUIVALENT, judge, verdict
