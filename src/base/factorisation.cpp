@@ -1,6 +1,7 @@
 #include "slipscale/base/factorisation.hpp"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 #include "slipscale/base/error.hpp"
@@ -27,12 +28,17 @@ bool enlarge_workspace(KSP ksp) {
   petsc(MatMumpsGetInfog(factor, 1, &info));
   petsc(MatMumpsGetIcntl(factor, 14, &percent));
   if ((info != -8 && info != -9) || percent >= most_workspace) return false;
-  petsc(MatMumpsSetIcntl(factor, 14, std::max(least_workspace, 2 * percent)));
-  petsc(MatFactorClearError(factor));
+  // PETSc does not factorise again what has failed: it begins anew, and reads the options again.
+  const char* prefix = nullptr;
+  petsc(KSPGetOptionsPrefix(ksp, &prefix));
+  const std::string option = std::string("-") + (prefix ? prefix : "") + "mat_mumps_icntl_14";
+  petsc(PetscOptionsSetValue(nullptr, option.c_str(),
+                             std::to_string(std::max(least_workspace, 2 * percent)).c_str()));
   petsc(KSPGetOperators(ksp, &matrix, nullptr));
-  // PETSc factorises again when the matrix has changed, and counts this as a change; not a bit differs after.
-  petsc(MatScale(matrix, 2));
-  petsc(MatScale(matrix, 0.5));
+  petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+  petsc(PCReset(pc));
+  petsc(KSPSetOperators(ksp, matrix, matrix));
+  petsc(MatDestroy(&matrix));  // the reference
   return true;
 }
 

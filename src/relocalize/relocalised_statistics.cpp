@@ -51,7 +51,8 @@ StrainStatistics strain_statistics(const StatisticsReader& run, const PlaneGrid&
   run.read_covariance("strain", covariance);
   if (!std::ranges::all_of(covariance, is_covariance))
     throw UserError("'" + run.path() +
-                    "' is damaged: its covariances of the strain are none (a variance below zero); run slide "
+                    "' (-relocalize_run) is damaged: its covariances of the strain are none (a variance "
+                    "below zero); run slide "
                     "with -statistics_from again");
   return {picked(mean, cells), picked(covariance, cells)};
 }

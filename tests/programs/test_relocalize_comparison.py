@@ -1,6 +1,7 @@
 """`relocalize` beside the heterogeneous run: what comparison.yaml and the files hold, against numpy; on any number of
 ranks, as XDMF, as a picture."""
 
+import os
 import shutil
 import subprocess
 import sys
