@@ -116,7 +116,7 @@ class SmallDisk(InBlock):
         return disk
 
     def check(self, kind):
-        disk = self.mounted(kind, 3000)
+        disk = self.mounted(kind, 1500)
         for ranks in RANKS:
             for scene in ({"fields_every": 1}, {"history_every": 1, "contact_every": 1, "time_end": 80e-6}):
                 with self.subTest(kind=kind, ranks=ranks, **scene):
