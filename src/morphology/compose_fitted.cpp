@@ -24,6 +24,7 @@ Lattice lattice_of(const Recipe& recipe, Composed& composed) {
 void take(FittedGrid&& grid, Composed& composed) {
   composed.mesh = std::move(grid.mesh);
   composed.squeezed = grid.squeezed;
+  composed.blunted = grid.blunted;
   composed.relieved = grid.relieved;
   composed.quality = quality(composed.mesh);
 }

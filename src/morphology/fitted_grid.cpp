@@ -45,6 +45,8 @@ FittedGrid fitted_grid(const Lattice& lattice, const std::vector<Body>& bodies,
   grid.squeezed = fitted.squeezed;
   if (!grid.unresolved.empty()) return grid;
   grid.relieved = relieve(fitted);
+  grid.blunted = fitted.blunted;
+  decide_surrounded(fitted);
   correct_areas(fitted, drawn);
   grid.mesh = mesh_of(fitted, regions_of_parts(bodies, drawn.size()));
   grid.mesh.regions = regions;

@@ -11,6 +11,7 @@ namespace slipscale::morphology {
 struct FittedGrid {
   CompositeMesh mesh;
   int squeezed = 0;  ///< places where two interfaces were nearer than a square is wide
+  int blunted = 0;   ///< nodes on the sides through which a wedge thinner than half a square was cut off
   int relieved = 0;  ///< nodes moved along sides and interfaces for a longer step
   std::map<std::array<int, 2>, int> unresolved;  ///< as in Fit; the mesh is empty when there are any
 };

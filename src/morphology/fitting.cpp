@@ -11,6 +11,8 @@ namespace {
 
 constexpr double same = 1e-9;      ///< in cells: an interface so near to a node passes through it
 constexpr double farthest = 0.75;  ///< in cells, that a node is moved
+constexpr double nearest = 0.2;    ///< in cells, that two nodes on a side may come
+constexpr double thinnest = 0.5;   ///< in cells: a wedge at a side of the block that is left out
 /// In cells: a tip that reaches past a line of the lattice without meeting a node there is cut off, and its
 /// area made good all around; a longer one is more than a grid of this size can show.
 constexpr double deepest_lost = 0.5;
@@ -33,7 +35,7 @@ struct Crossing {
 class Fitter {
  public:
   Fitter(const Lattice& lattice, const std::vector<Body>& bodies)
-      : lattice_(lattice), bodies_(bodies), fit_{lattice, bodies, {}, {}, {}, {}, {}, 0} {
+      : lattice_(lattice), bodies_(bodies), fit_{lattice, bodies, {}, {}, {}, {}, {}, 0, 0, {}} {
     fit_.inside.assign(lattice.nodes(), nobody);
     fit_.on.assign(lattice.nodes(), nobody);
     fit_.moved.assign(lattice.nodes(), {});
@@ -48,7 +50,11 @@ class Fitter {
     });
     for (Crossing& crossing : crossings_)
       for (int upper = 0; upper < 2; ++upper) crossing.move[upper] = move(crossing, upper);
-    std::ranges::stable_sort(crossings_, {}, [&](const Crossing& c) { return std::min(cost(c.move[0]), cost(c.move[1])); });
+    // Where an interface cuts a side of the block there is one point for the nodes of the side, and those at
+    // the end of an edge that leaves the side have no other.
+    std::ranges::stable_sort(crossings_, {}, [&](const Crossing& c) {
+      return std::pair(!leaves_side(c), std::min(cost(c.move[0]), cost(c.move[1])));
+    });
     for (const Crossing& crossing : crossings_) settle(crossing);
     return std::move(fit_);
   }
@@ -109,6 +115,12 @@ class Fitter {
     return by;
   }
 
+  bool leaves_side(const Crossing& c) const {
+    return lattice_.on_side(c.end(0), c.axis) || lattice_.on_side(c.end(1), c.axis);
+  }
+
+  bool along_side(const Crossing& c) const { return lattice_.on_side(c.place, 1 - c.axis); }
+
   double cost(const std::optional<Vector2>& move) const {
     return move ? std::hypot((*move)[0] / lattice_.step(0), (*move)[1] / lattice_.step(1)) : 1e300;
   }
@@ -116,12 +128,16 @@ class Fitter {
   /// The nearer node of the edge is moved, or else the farther.
   void settle(const Crossing& crossing) {
     const int part = bodies_[crossing.body].part();
+    if (along_side(crossing) && !leaves_side(crossing))
+      for (const int upper : {0, 1})
+        if (fit_.on[lattice_.node(crossing.end(upper))] == part) return;
     const int nearer = cost(crossing.move[1]) < cost(crossing.move[0]) ? 1 : 0;
     for (const int upper : {nearer, 1 - nearer}) {
       const Place place = crossing.end(upper);
       const int node = lattice_.node(place);
       if (fit_.on[node] == part) return;
       if (cost(crossing.move[upper]) > farthest || fit_.on[node] != nobody) continue;
+      if (taken(place, *crossing.move[upper], part)) continue;
       if (fit_.inside[node] != nobody && fit_.inside[node] != part) continue;
       fit_.on[node] = part;
       fit_.moved[node] = *crossing.move[upper];
@@ -129,6 +145,7 @@ class Fitter {
       fit_.squeezed += upper != nearer;
       return;
     }
+    if (blunt(crossing, part)) return;
     int neighbour = nobody;
     for (const int upper : {0, 1}) {
       const int node = lattice_.node(crossing.end(upper));
@@ -136,6 +153,37 @@ class Fitter {
       if (other != part && other != nobody) neighbour = other;
     }
     ++fit_.unresolved[{part, neighbour}];
+  }
+
+  /// Whether the next node on a side of the block already lies where this one would go.
+  bool taken(const Place& place, const Vector2& by, int part) const {
+    for (int axis = 0; axis < 2; ++axis)
+      if (lattice_.on_side(place, 1 - axis))
+        for (const int way : {-1, 1}) {
+          Place next = place;
+          next[axis] += way;
+          if (!lattice_.has_node(next) || fit_.on[lattice_.node(next)] != part) continue;
+          const double apart = way * lattice_.step(axis) + fit_.moved[lattice_.node(next)][axis] - by[axis];
+          if (std::abs(apart) < nearest * lattice_.step(axis)) return true;
+        }
+    return false;
+  }
+
+  /// Where an interface meets a side of the block so flat that the wedge between them is thinner than part of
+  /// a square, the interface is led through the node on the side.
+  bool blunt(const Crossing& crossing, int part) {
+    for (const int upper : {0, 1}) {
+      const Place place = crossing.end(upper);
+      const int node = lattice_.node(place);
+      const bool side = lattice_.on_side(place, crossing.axis), other = lattice_.on_side(place, 1 - crossing.axis);
+      if (!side || other || std::abs(crossing.part - upper) > thinnest || fit_.on[node] != nobody) continue;
+      if (fit_.inside[node] != nobody && fit_.inside[node] != part) continue;
+      fit_.on[node] = part;
+      fit_.touches[node] = {crossing.body, place};
+      ++fit_.blunted;
+      return true;
+    }
+    return false;
   }
 
   const Lattice& lattice_;
@@ -155,11 +203,16 @@ Fit fit(const Lattice& lattice, const std::vector<Body>& bodies) { return Fitter
 
 namespace {
 
+constexpr double flat_cosine = -0.906;  ///< of 155 degrees
+
 /// Of a square with all corners on interfaces: the part that covers its middle.
 int part_at_middle(const Fit& fit, const Place& low) {
   const auto places = corners(low);
   Vector2 middle{};
-  for (const Place& place : places) middle = middle + 0.25 * fit.position(place);
+  for (const Place& place : places) {
+    if (fit.on[fit.lattice.node(place)] != fit.on[fit.lattice.node(low)]) return nobody;  // between two parts
+    middle = middle + 0.25 * fit.position(place);
+  }
   for (const Place& place : places) {
     const int node = fit.lattice.node(place);
     const OnInterface& touch = fit.touches.at(node);
@@ -169,29 +222,64 @@ int part_at_middle(const Fit& fit, const Place& low) {
   return nobody;
 }
 
+/// Two triangles on both sides of the diagonal from a corner; the part of each is that of its own corner.
+Square halves(int first, const std::array<int, 4>& part) {
+  Square square;
+  square.count = 2;
+  for (int half = 0; half < 2; ++half) {
+    const int from = (first + 2 * half) % 4, middle = (from + 1) % 4, to = (from + 2) % 4;
+    square.cells[half] = {{from, middle, to, 0}, 3, part[middle]};
+  }
+  return square;
+}
+
+/// The corner of a square with an angle near 180 degrees, between two others on the interface; or -1.
+int flat_corner(const Fit& fit, const std::array<Place, 4>& places, const std::array<int, 4>& on) {
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4, last = (i + 3) % 4;
+    if (on[i] == nobody || on[next] == nobody || on[last] == nobody) continue;
+    const Vector2 x = fit.position(places[i]), ahead = unit(fit.position(places[next]) - x),
+                  back = unit(fit.position(places[last]) - x);
+    if (dot(ahead, back) < flat_cosine || cross(ahead, back) < 0) return i;
+  }
+  return -1;
+}
+
 }  // namespace
+
+void decide_surrounded(Fit& fit) {
+  for (const auto& [node, touch] : fit.touches) {
+    const Place low = fit.lattice.place(node);
+    if (!fit.lattice.has_square(low)) continue;
+    const auto places = corners(low);
+    if (std::ranges::all_of(places, [&](const Place& at) { return fit.on[fit.lattice.node(at)] != nobody; }))
+      fit.surrounded[node] = part_at_middle(fit, low);
+  }
+}
 
 Square square(const Fit& fit, const Place& low) {
   const auto places = corners(low);
-  std::array<int, 4> on{}, inside{};
-  std::vector<int> found;  // parts of the corners off the interfaces
+  std::array<int, 4> on{}, side{};
+  int part = nobody;  // that has a corner inside
   for (int i = 0; i < 4; ++i) {
     const int node = fit.lattice.node(places[i]);
     on[i] = fit.on[node];
-    inside[i] = fit.inside[node];
-    if (on[i] == nobody && std::ranges::find(found, inside[i]) == found.end()) found.push_back(inside[i]);
+    side[i] = fit.inside[node];
+    if (on[i] == nobody && side[i] != nobody) part = side[i];
+  }
+  int within = 0, without = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (part != nobody && on[i] != nobody && on[i] != part) on[i] = side[i] = nobody;  // another's interface
+    if (on[i] == nobody) ++(side[i] == nobody ? without : within);
   }
   Square square;
-  if (found.size() < 2) {
-    square.cells[0] = {{0, 1, 2, 3}, 4, found.empty() ? part_at_middle(fit, low) : found.front()};
-    return square;
+  if (within > 0 && without > 0) return halves(on[0] != nobody && on[2] != nobody ? 0 : 1, side);
+  if (within + without == 0) {
+    const auto decided = fit.surrounded.find(fit.lattice.node(low));
+    part = decided != fit.surrounded.end() ? decided->second : part_at_middle(fit, low);
   }
-  const int first = on[0] != nobody && on[2] != nobody ? 0 : 1;
-  square.count = 2;
-  for (int half = 0; half < 2; ++half) {
-    const int from = first + 2 * half, middle = (from + 1) % 4, to = (from + 2) % 4;
-    square.cells[half] = {{from, middle, to, 0}, 3, inside[middle]};
-  }
+  if (const int flat = flat_corner(fit, places, on); flat >= 0) return halves(flat, {part, part, part, part});
+  square.cells[0] = {{0, 1, 2, 3}, 4, part};
   return square;
 }
 

@@ -28,6 +28,8 @@ struct Fit {
   /// of such edges. The second is `nobody` where one part is too thin.
   std::map<std::array<int, 2>, int> unresolved;
   int squeezed = 0;  ///< edges for which the farther node had to move, the nearer lying on another interface
+  int blunted = 0;   ///< nodes on sides of the block through which a wedge too thin for the grid was cut off
+  std::map<int, int> surrounded;  ///< lower left node of squares with all corners on interfaces -> their part
 
   Vector2 position(const Place& place) const {
     const Vector2& by = moved[lattice.node(place)];
@@ -37,6 +39,9 @@ struct Fit {
   /// The interface that the node lies on, near the node.
   Foot foot(int node, const Vector2& moved_by) const;
 };
+
+/// Decides what squares with all corners on interfaces are part of.
+void decide_surrounded(Fit& fit);
 
 Fit fit(const Lattice& lattice, const std::vector<Body>& bodies);
 

@@ -2,22 +2,15 @@
 
 #include <gmsh.h>
 
-#include <algorithm>
-#include <cmath>
 #include <unordered_map>
 
+#include "gmsh_geometry.hpp"
 #include "msh_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/morphology/mesh_size.hpp"
 
 namespace slipscale {
 namespace {
-
-// Straight segments need no solid modeller: gmsh's own kernel meshes them twice as fast as OpenCASCADE's.
-namespace kernel = gmsh::model::geo;
-
-const std::array<std::pair<Side, const char*>, 4> sides{
-    {{bottom, "bottom"}, {right, "right"}, {top, "top"}, {left, "left"}}};
 
 template <class Work>
 auto in_gmsh(Work&& work) {
@@ -30,116 +23,6 @@ auto in_gmsh(Work&& work) {
     gmsh::logger::getLastError(message);
     throw LibraryError("gmsh: " + message);
   }
-}
-
-void set(const char* option, double value) { gmsh::option::setNumber(option, value); }
-
-void new_model() {
-  gmsh::clear();
-  gmsh::model::add("composite");
-  gmsh::model::mesh::removeSizeCallback();
-}
-
-void add_segments(const Drawing& drawing) {
-  for (std::size_t i = 0; i < drawing.points.size(); ++i)
-    kernel::addPoint(drawing.points[i][0], drawing.points[i][1], 0, 0, static_cast<int>(i) + 1);
-  for (std::size_t k = 0; k < drawing.segments.size(); ++k)
-    kernel::addLine(drawing.segments[k].from + 1, drawing.segments[k].to + 1, static_cast<int>(k) + 1);
-}
-
-void add_faces(const Drawing& drawing) {
-  for (std::size_t f = 0; f < drawing.faces.size(); ++f) {
-    std::vector<int> loops;
-    for (const Drawing::Loop& loop : drawing.faces[f].loops) loops.push_back(kernel::addCurveLoop(loop));
-    kernel::addPlaneSurface(loops, static_cast<int>(f) + 1);
-  }
-}
-
-void name_sides(const Drawing& drawing) {
-  for (const auto& [side, name] : sides)
-    gmsh::model::setPhysicalName(1, gmsh::model::addPhysicalGroup(1, drawing.side(side)), name);
-}
-
-void make_periodic(const Drawing& drawing, const Box& block, const std::array<bool, 2>& periodic) {
-  const auto shifted = [](double x, double y) {
-    return std::vector<double>{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, 0, 0, 0, 0, 1};
-  };
-  if (periodic[0])
-    gmsh::model::mesh::setPeriodic(1, drawing.side(right), drawing.side(left), shifted(block.width(), 0));
-  if (periodic[1])
-    gmsh::model::mesh::setPeriodic(1, drawing.side(top), drawing.side(bottom), shifted(0, block.height()));
-}
-
-/// gmsh places nodes of a periodic side to some 1e-12 of its length only: make it the last bit.
-void match_periodic_nodes(const Drawing& drawing, const Box& block, const std::array<bool, 2>& periodic) {
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!periodic[axis]) continue;
-    for (int segment : drawing.side(axis == 0 ? right : top)) {
-      int master = 0;
-      std::vector<std::size_t> nodes, masters;
-      std::vector<double> affine, x, parameters;
-      gmsh::model::mesh::getPeriodicNodes(1, segment, master, nodes, masters, affine);
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        gmsh::model::mesh::getNode(masters[i], x, parameters);
-        x[axis] = block.upper[axis];
-        gmsh::model::mesh::setNode(nodes[i], x, {});
-      }
-    }
-  }
-}
-
-/// Interfaces keep the points that were drawn: the polygon's area is right only with those.
-void divide_interfaces(const Drawing& drawing, double length) {
-  for (std::size_t k = 0; k < drawing.segments.size(); ++k) {
-    const Drawing::Segment& segment = drawing.segments[k];
-    if (segment.sides) continue;
-    const Vector2 &a = drawing.points[segment.from], &b = drawing.points[segment.to];
-    const double parts = std::round(std::hypot(b[0] - a[0], b[1] - a[1]) / length);
-    gmsh::model::mesh::setTransfiniteCurve(static_cast<int>(k) + 1, std::max(1, static_cast<int>(parts)) + 1);
-  }
-}
-
-void name_regions(const std::vector<std::string>& regions, const std::vector<int>& region_of) {
-  for (std::size_t region = 0; region < regions.size(); ++region) {
-    std::vector<int> faces;
-    for (std::size_t tag = 1; tag < region_of.size(); ++tag)
-      if (region_of[tag] == static_cast<int>(region)) faces.push_back(static_cast<int>(tag));
-    if (!faces.empty())
-      gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, faces), regions[region]);
-  }
-}
-
-void set_sizes(const SizeField& field, const MeshSize& size) {
-  set("Mesh.MeshSizeFromPoints", 0);
-  set("Mesh.MeshSizeExtendFromBoundary", 0);
-  set("Mesh.MeshSizeMax", size.bulk);
-  set("Mesh.MeshSizeMin", 0);
-  if (!field.uniform())
-    gmsh::model::mesh::setSizeCallback([&field](int, int, double x, double y, double) {
-      return field({x, y});
-    });
-}
-
-/// Triangles that the size field asks for, by samples.
-double expected_triangles(const SizeField& field, const Box& block) {
-  constexpr int samples = 100;
-  double sum = 0;
-  for (int j = 0; j < samples; ++j)
-    for (int i = 0; i < samples; ++i) {
-      const double length = field({block.lower[0] + (i + 0.5) / samples * block.width(),
-                                   block.lower[1] + (j + 0.5) / samples * block.height()});
-      sum += 4 / std::sqrt(3) / (length * length);
-    }
-  return sum * block.width() * block.height() / (samples * samples);
-}
-
-/// gmsh's best pairing of triangles (blossom) leaves 7 % of the cells unpaired, at a cost that is quadratic
-/// in their number: half a minute for 150 000, more than six for 600 000. The greedy one leaves 23 %.
-void recombine(std::size_t faces, double triangles) {
-  constexpr double most_for_blossom = 2e5;
-  set("Mesh.RecombinationAlgorithm", triangles > most_for_blossom ? 0 : 1);
-  for (std::size_t face = 1; face <= faces; ++face)
-    gmsh::model::mesh::setRecombine(2, static_cast<int>(face));
 }
 
 /// Node tags of gmsh, densely numbered in their order.
@@ -190,6 +73,8 @@ void part_by_pixels(const Box& block, int columns, int rows, const std::vector<i
 
 }  // namespace
 
+using namespace in_gmsh_model;
+
 GmshModel::GmshModel() {
   in_gmsh([] {
     gmsh::initialize(0, nullptr, false);
@@ -222,10 +107,7 @@ void GmshModel::mesh(const Drawing& drawing, const std::vector<std::string>& reg
   const SizeField field(choice.size, room.block, drawing);
   in_gmsh([&] {
     new_model();
-    add_segments(drawing);
-    add_faces(drawing);
-    kernel::synchronize();
-    name_sides(drawing);
+    add_geometry(drawing);
     name_regions(regions_, region_of_);
     make_periodic(drawing, room.block, room.periodic);
     divide_interfaces(drawing, choice.size.interface);
@@ -245,12 +127,9 @@ void GmshModel::mesh_grid(const Box& block, const std::array<bool, 2>& periodic,
   regions_ = regions;
   in_gmsh([&] {
     new_model();
-    add_segments(drawing);
-    add_faces(drawing);
-    kernel::synchronize();
-    name_sides(drawing);
+    add_geometry(drawing);
     make_periodic(drawing, block, periodic);
-    for (const auto& [side, name] : sides)
+    for (const Side side : {bottom, right, top, left})
       for (int segment : drawing.side(side))
         gmsh::model::mesh::setTransfiniteCurve(segment, (side == bottom || side == top ? columns : rows) + 1);
     gmsh::model::mesh::setTransfiniteSurface(1, "AlternateLeft");

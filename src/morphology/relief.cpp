@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "plane.hpp"
 #include "slipscale/solid/element.hpp"
@@ -11,7 +12,10 @@
 namespace slipscale::morphology {
 namespace {
 
-constexpr double good_enough = 0.82, farthest = 0.75;
+constexpr double good_enough =
+    0.82;                          ///< step, as `step_around` counts it; the inner interfaces allow as much
+constexpr double farthest = 0.75;  ///< in squares, that a node is moved
+constexpr int most_passes = 12;
 
 }  // namespace
 
@@ -52,8 +56,9 @@ double step_around(const Fit& fit, const Place& place) {
   for (int a = 0; a < nodes; ++a)
     for (int b = 0; b < nodes; ++b)
       if (mass[a] > 0 && mass[b] > 0) stiffness.block<2, 2>(2 * a, 2 * b) /= std::sqrt(mass[a] * mass[b]);
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<decltype(stiffness)>(stiffness, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  const double largest = Eigen::SelfAdjointEigenSolver<decltype(stiffness)>(stiffness, Eigen::EigenvaluesOnly)
+                             .eigenvalues()
+                             .maxCoeff();
   return 2 * std::sqrt(elasticity(0, 0) / largest / (fit.lattice.step(0) * fit.lattice.step(1)));
 }
 
@@ -64,42 +69,38 @@ class Relief {
   explicit Relief(Fit& fit) : fit_(fit) {}
 
   int work() {
-    std::vector<std::pair<double, Place>> poor;
     const Lattice& lattice = fit_.lattice;
-    std::vector<char> looked(lattice.nodes());
-    for (const auto& [node, touch] : fit_.touches) {
-      const Place at = lattice.place(node);
-      if (!lattice.on_side(at, 0) && !lattice.on_side(at, 1)) continue;
-      for (int row = -2; row <= 2; ++row)
-        for (int column = -2; column <= 2; ++column) {
-          const Place near{at[0] + column, at[1] + row};
-          if (!lattice.has_node(near) || looked[lattice.node(near)]++) continue;
-          if (const double step = step_around(fit_, near); step < good_enough) poor.push_back({step, near});
-        }
-    }
-    for (int pass = 0; pass < 3; ++pass) {
-      std::ranges::stable_sort(poor, {}, &std::pair<double, Place>::first);
-      for (auto& [step, place] : poor)
-        if (step_around(fit_, place) < good_enough) improve(place);
-      for (auto& [step, place] : poor) step = step_around(fit_, place);
+    std::set<int> near;  // nodes at interfaces that cut a side
+    for (const auto& [node, touch] : fit_.touches)
+      if (const Place at = lattice.place(node); lattice.on_side(at, 0) || lattice.on_side(at, 1))
+        visit_around(at, 3, [&](const Place& place) { near.insert(lattice.node(place)); });
+    for (int pass = 0; pass < most_passes; ++pass) {
+      std::vector<std::pair<double, int>> poor;
+      for (const int node : near)
+        if (const double step = step_around(fit_, lattice.place(node)); step < good_enough)
+          poor.push_back({step, node});
+      std::ranges::sort(poor);
+      const int before = moves_;
+      for (const auto& [step, node] : poor)
+        if (step_around(fit_, lattice.place(node)) < good_enough)
+          visit_around(lattice.place(node), 1, [&](const Place& place) { slide(place); });
+      if (moves_ == before) break;
     }
     return moves_;
   }
 
  private:
-  double least_around(const Place& place) const {
-    double least = 1e300;
-    for (int row = -1; row <= 1; ++row)
-      for (int column = -1; column <= 1; ++column)
-        if (const Place near{place[0] + column, place[1] + row}; fit_.lattice.has_node(near))
-          least = std::min(least, step_around(fit_, near));
-    return least;
+  template <class Visit>
+  void visit_around(const Place& place, int reach, Visit&& visit) const {
+    for (int row = -reach; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column)
+        if (const Place near{place[0] + column, place[1] + row}; fit_.lattice.has_node(near)) visit(near);
   }
 
-  void improve(const Place& place) {
-    for (int row = -1; row <= 1; ++row)
-      for (int column = -1; column <= 1; ++column)
-        if (const Place near{place[0] + column, place[1] + row}; fit_.lattice.has_node(near)) slide(near);
+  double least_around(const Place& place) const {
+    double least = 1e300;
+    visit_around(place, 1, [&](const Place& near) { least = std::min(least, step_around(fit_, near)); });
+    return least;
   }
 
   /// Directions in which a node may go.
@@ -122,7 +123,8 @@ class Relief {
           for (int stride = 0; stride < 4; ++stride) {
             const Vector2 before = fit_.moved[node];
             Vector2 by = before + (sign * length * h) * way;
-            if (fit_.on[node] != nobody) by = fit_.foot(node, by).x - fit_.lattice.position(fit_.touches.at(node).seen);
+            if (fit_.on[node] != nobody)
+              by = fit_.foot(node, by).x - fit_.lattice.position(fit_.touches.at(node).seen);
             if (norm(by) > farthest * h) break;
             fit_.moved[node] = by;
             const double least = least_around(place);

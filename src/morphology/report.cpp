@@ -80,6 +80,9 @@ std::string fit_line(const Composed& composed) {
   if (composed.relieved) text += format("; {} moves along sides and interfaces for a longer step", composed.relieved);
   if (composed.squeezed)
     text += format("; {} cells are narrower, between interfaces less than a cell apart", composed.squeezed);
+  if (composed.blunted)
+    text += format("; {} nodes on the sides bound wedges that are thinner than half a cell and left out",
+                   composed.blunted);
   return text + "\n";
 }
 

@@ -48,8 +48,7 @@ std::string drawn_file(const Recipe& recipe) {
   if (is_root(PETSC_COMM_WORLD)) {
     try {
       GmshModel gmsh;
-      compose(recipe, gmsh);
-      gmsh.write(path);
+      write_mesh(recipe, compose(recipe, gmsh), gmsh, path);
     } catch (const std::exception& error) {
       fault = error.what();
     }

@@ -19,6 +19,7 @@ struct Composed {
   MeshQuality quality;
   std::array<int, 2> grid{};  ///< columns and rows of a grid, fitted or not; zero in other meshes
   int squeezed = 0;           ///< edges of a fitted grid between two interfaces less than a cell apart
+  int blunted = 0;            ///< its nodes on the sides where an interface cuts too flat for it
   int relieved = 0;           ///< moves of its nodes near the sides of the block for a longer step
   bool coloured = false;  ///< the picture's levels are the luma of its colours
   long despeckled = 0;    ///< pixels of the picture that went to another region
