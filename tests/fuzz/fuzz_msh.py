@@ -56,7 +56,7 @@ def originals(folder):
     for name, text in GEOMETRIES.items():
         for form in ("text", "binary"):
             geometry, mesh = folder / f"{name}.geo", folder / f"{name}-{form}.msh"
-            geometry.write_text(text)
+            geometry.write_text(text + "\n")  # gmsh passes over a last line without end
             subprocess.run(["gmsh", "-v", "1", "-2", "-format", "msh41", *(["-bin"] if form == "binary" else []),
                             geometry, "-o", mesh], check=True, stdin=subprocess.DEVNULL)
             found[mesh.stem] = mesh.read_bytes()
