@@ -15,7 +15,7 @@ class Contrast(studies.StudyCase):
     def test_morphologies_adaptations_and_what_is_run_again(self):
         self.run_study()
         runs = [row for row in self.table() if row["model"] != "adapted"]
-        self.assertEqual({row["status"] for row in runs}, {"ok"})
+        self.assertEqual([row for row in runs if row["status"] != "ok"], [])
         for row in runs:
             self.assertLess(float(row["energy_residual"]), 1e-10)
             self.assertLessEqual(float(row["friction"]), 0.5 + 1e-9)  # the coefficient

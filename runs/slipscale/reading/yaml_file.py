@@ -50,7 +50,7 @@ def _check(node, seen, written):
             if key.tag == "tag:yaml.org,2002:merge":
                 _check(value, seen, written)
                 continue
-            if key.tag not in (STR, INT) and not written:
+            if key.tag not in (STR, INT, FLOAT) and not written:
                 raise Mistake(f"has a key, {key.value!r}, {_place(key)} that YAML does not take for a word; put it in "
                               "quotes")
             _check(key, seen, written)
