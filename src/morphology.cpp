@@ -7,6 +7,8 @@
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/files/folder_lock.hpp"
+#include "slipscale/files/output_folder.hpp"
 #include "slipscale/morphology/compose.hpp"
 #include "slipscale/morphology/picture.hpp"
 #include "slipscale/morphology/report.hpp"
@@ -25,21 +27,10 @@ bool make_folder(const std::string& folder) {
   return is_new;
 }
 
-Composed compose_for(const std::string& folder, const Recipe& recipe, GmshModel& gmsh) {
-  const bool is_new = make_folder(folder);
-  try {
-    return compose(recipe, gmsh);
-  } catch (const UserError&) {
-    std::error_code code;
-    if (is_new) std::filesystem::remove(folder, code);
-    throw;
-  }
-}
-
-void make(const Recipe& recipe, const Options& options) {
-  const std::string folder = options.text("output_folder");
+void make(const Recipe& recipe, const Options& options, const std::string& folder) {
+  const FolderLock lock(folder);
   GmshModel gmsh;
-  const Composed composed = compose_for(folder, recipe, gmsh);
+  const Composed composed = compose(recipe, gmsh);
   ResultFiles files(folder);
   files.add("mesh.msh", [&](const std::string& path) { write_mesh(recipe, composed, gmsh, path); });
   files.add("morphology.png", [&](const std::string& path) { write_picture(composed.mesh, path); });
@@ -51,6 +42,19 @@ void make(const Recipe& recipe, const Options& options) {
         "/morphology.png\n");
 }
 
+/// A new folder goes again when the recipe is refused.
+void make_in_folder(const Recipe& recipe, const Options& options) {
+  const std::string folder = options.text("output_folder");
+  const bool is_new = make_folder(folder);
+  try {
+    make(recipe, options, folder);
+  } catch (const UserError&) {
+    std::error_code code;
+    if (is_new) std::filesystem::remove(folder, code);
+    throw;
+  }
+}
+
 /// Drawing is serial: on several ranks the first one works, and all report its faults.
 void morphology(Options& options) {
   const Recipe recipe = read_recipe(options);
@@ -59,7 +63,7 @@ void morphology(Options& options) {
   options.refuse_unknown();
   std::string fault;
   try {
-    if (is_root(PETSC_COMM_WORLD)) make(recipe, options);
+    if (is_root(PETSC_COMM_WORLD)) make_in_folder(recipe, options);
   } catch (const UserError& error) {
     fault = error.what();
   }

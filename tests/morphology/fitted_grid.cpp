@@ -31,7 +31,7 @@ Recipe discs(std::uint64_t seed, int across) {
   Recipe recipe;
   recipe.composite = Composite::random;
   recipe.room.block.upper = {length, length};
-  recipe.families = {family(Shape::disc, 0.3, 0.5e-3)};
+  recipe.families = {family(slipscale::Shape::disc, 0.3, 0.5e-3)};
   recipe.families[0].diameter_deviation = 0;
   recipe.mesh.cell = CellShape::grid;
   recipe.mesh.size.bulk = recipe.mesh.size.interface = length / across;
