@@ -6,6 +6,5 @@ set(SLIPSCALE_MPI_ENVIRONMENT
   OMPI_MCA_mpi_yield_when_idle=1
   OMPI_MCA_btl_vader_single_copy_mechanism=none
   ASAN_OPTIONS=detect_leaks=0 # Open MPI keeps memory until the process ends
-  OMPI_MCA_ess_singleton_isolated=1 # a program without mpiexec starts no daemon of Open MPI
   OMP_NUM_THREADS=1
   OPENBLAS_NUM_THREADS=1)

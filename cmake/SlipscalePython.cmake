@@ -41,6 +41,7 @@ file(RELATIVE_PATH slipscale_up /${CMAKE_INSTALL_BINDIR} /${slipscale_shared})
 set(slipscale_runs "HERE / \"${slipscale_up}\"")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/slipscale.in ${PROJECT_BINARY_DIR}/installed/slipscale @ONLY)
 install(PROGRAMS ${PROJECT_BINARY_DIR}/installed/slipscale DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT slipscale)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/slipscale COMPONENT slipscale)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runs/ DESTINATION ${slipscale_shared} USE_SOURCE_PERMISSIONS
   COMPONENT slipscale
   PATTERN __pycache__ EXCLUDE

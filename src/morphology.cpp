@@ -81,5 +81,6 @@ int main(int argc, char** argv) {
        recipe_schema(),
        morphology,
        commit,
+       {},
        {"gmsh " + GmshModel::version()}});
 }

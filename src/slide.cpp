@@ -4,6 +4,7 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
 #include "slipscale/mesh/read.hpp"
@@ -59,6 +60,7 @@ void slide(Options& options) {
   options.refuse_unknown();
 
   SlidingBody body(comm, model, scene, step.step);
+  for (const std::string& remark : remarks_at_start(body)) print("note: " + remark + "\n");
   Recorder recorder(body, record, step);
   recorder.write_run(options);
   print(recorder.forecast());

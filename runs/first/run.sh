@@ -22,7 +22,7 @@ fi
 export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 mpirun -n "$ranks" build/release/slide -options_file_yaml runs/first/scene.yaml -output_folder "$out"
 
-PYTHONPATH=runs /usr/bin/python3 -m slipscale.pictures.picture "$out" "$out/picture.png" --window 250e-6 400e-6
+build/release/slipscale picture "$out" "$out/picture.png"
 
 cat <<END
 

@@ -19,7 +19,7 @@ from slipscale.measuring.window import in_words
 from slipscale.parser import Parser
 from slipscale.pictures import overlay
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
-from slipscale.pictures.drawing import PREFIXES, plt, write_picture
+from slipscale.pictures.drawing import PREFIXES, few_ticks, plt, write_picture
 from slipscale.reading import UnreadableRun
 from slipscale.running.table import read_csv
 
@@ -109,6 +109,7 @@ def price_panel(axes, found, look, name, label):
     for each in found:
         known = np.isfinite(each.errors) & (each.errors > 0)
         axes.loglog(getattr(each, name)[known], each.errors[known], "-", **look.of(each.variant))
+    few_ticks(axes.xaxis)
     low, high = axes.get_xlim()
     if high > 20 * low:
         axes.xaxis.set_minor_formatter(NullFormatter())

@@ -52,8 +52,8 @@ def quoted(paths):
 
 
 def readme_of(folder):
-    """The README that is renewed, or None: only that of what the study itself says, not of what is laid over it."""
-    return folder if config["readme"] else None
+    """The README that is renewed, or None: that of a clone, and of what the study itself says, not of what is laid over."""
+    return folder if config["readme"] and (TOP / "CMakeLists.txt").is_file() else None
 
 
 def on_ranks(ranks):

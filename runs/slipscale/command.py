@@ -78,8 +78,8 @@ def called(name, words):
 
 
 def main(words=None):
-    words = sys.argv[1:] if words is None else words
-    if words[:1] in ([], ["-h"], ["--help"], ["-help"], ["help"]):
+    words = ["-h" if word == "-help" else word for word in (sys.argv[1:] if words is None else words)]
+    if words[:1] in ([], ["-h"], ["--help"], ["help"]):
         print(manual(), end="")
         return 0
     if words[0] in ("--version", "-version"):

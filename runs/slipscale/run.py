@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from slipscale.measuring import spectrum as welch
-from slipscale.measuring.regime import FEWEST_ROWS, friction_signal, measures
-from slipscale.measuring.window import rows_in
+from slipscale.measuring.averages import settling
+from slipscale.measuring.regime import friction_signal, measures
+from slipscale.measuring.window import choose_window, default_window, rows_in
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
 
@@ -163,14 +164,8 @@ class Run:
     def window(self, from_=None, to=None):
         """Two times in s: those given, or the second half of what was recorded. Raises UnreadableRun when fewer than
         32 rows lie between them, too few for a spectrum."""
-        time = self.time
-        begin = 0.5 * (time[0] + time[-1]) if from_ is None else max(from_, time[0])
-        end = time[-1] if to is None else min(to, time[-1])
-        rows = rows_in(time, (begin, end))
-        if rows.stop - rows.start < FEWEST_ROWS:
-            raise UnreadableRun(f"Only {max(0, rows.stop - rows.start)} rows lie between {begin:g} and {end:g} s, and "
-                                f"averages need {FEWEST_ROWS}: choose another window or let the run go on.")
-        return begin, end
+        begin, end = default_window(self.time)
+        return choose_window(self.time, (begin if from_ is None else from_, end if to is None else to))
 
     def spectrum(self, from_=None, to=None):
         """The Spectrum of friction over the window (s), three half-overlapping segments."""
@@ -179,6 +174,11 @@ class Run:
         values, rate = welch.evenly_spaced(self.time[rows], signal)
         frequency, density = welch.welch(values, rate)
         return Spectrum(frequency, density, float(welch.dominant_frequency(frequency, density)))
+
+    def settling(self, from_=None, to=None):
+        """Whether friction goes on in the second half of the window (s) as in the first: an averages.Settling."""
+        rows = rows_in(self.time, self.window(from_, to))
+        return settling(friction_signal(self._history, self._summary.measured_boundary(self._history), rows))
 
     def measures(self, from_=None, to=None):
         """What the run did over the window (s), as a dict: friction, frequency, amplitude, stick, slip, open, regime,

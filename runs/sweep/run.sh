@@ -2,7 +2,7 @@
 # A sweep from the command line, as `slide` is started, with several values for what is varied; --help says more:
 #   runs/sweep/run.sh -options_file_yaml runs/first/scene.yaml -friction_coefficient 0.1:0.1:0.8 -surface_speed 1,2,4
 folder=$(cd "$(dirname "$0")" && pwd)
-for program in "$folder/../../build/release/slipscale" "$folder/../../../../bin/slipscale" slipscale; do
+for program in "${SLIPSCALE_COMMAND:-}" "$folder/../../build/release/slipscale" "$folder/../../../../bin/slipscale" slipscale; do
   if command -v "$program" >/dev/null; then
     exec "$program" sweep --study "$folder" "$@"
   fi

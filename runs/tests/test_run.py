@@ -60,7 +60,7 @@ class OfARun(unittest.TestCase):
         self.assertEqual(found["regime"], "stick-slip-separated")
 
     def test_a_window_that_is_too_short(self):
-        with self.assertRaisesRegex(slipscale.UnreadableRun, "averages need 32"):
+        with self.assertRaisesRegex(slipscale.UnreadableRun, "a spectrum needs 32"):
             self.run_.spectrum(from_=3.9995e-4)
 
     def test_no_folder(self):

@@ -26,14 +26,25 @@ PetscOptions from_file(const std::string& path) {
 
 }  // namespace
 
+std::vector<Written> options_of_petsc_file(const std::string& path) {
+  std::vector<Written> options;
+  PetscOptions database = from_file(path);
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  petsc(PetscOptionsLeftGet(database, &count, &names, &values));
+  for (PetscInt k = 0; k < count; ++k) {
+    options.push_back({names[k], std::nullopt, {0, "'" + path + "'"}});
+    if (values[k]) options.back().value = values[k];
+  }
+  petsc(PetscOptionsLeftRestore(database, &count, &names, &values));
+  petsc(PetscOptionsDestroy(&database));
+  return options;
+}
+
 PlacesOfPetsc::PlacesOfPetsc(bool nothing) {
   if (nothing) return;
   std::array<char, PETSC_MAX_PATH_LEN> home{};
   petsc(PetscGetHomeDirectory(home.data(), home.size()));
-  std::array<char, PETSC_MAX_PATH_LEN> named{};
-  PetscBool is_named = PETSC_FALSE;
-  petsc(PetscOptionsGetString(nullptr, nullptr, "-options_file", named.data(), named.size(), &is_named));
-  if (is_named) places_.emplace_back("'" + std::string(named.data()) + "'", from_file(named.data()));
   places_.emplace_back("the variable PETSC_OPTIONS", from_variable("PETSC_OPTIONS"));
   for (const std::string& file :
        {std::string("petscrc"), std::string(".petscrc"), std::string(home.data()) + "/.petscrc"})

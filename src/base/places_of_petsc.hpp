@@ -24,4 +24,7 @@ class PlacesOfPetsc {
   std::vector<std::pair<std::string, PetscOptions>> places_;  ///< the last word first
 };
 
+/// What stands in a file of PETSc's own format (`-options_file`). Collective.
+std::vector<Written> options_of_petsc_file(const std::string& path);
+
 }  // namespace slipscale

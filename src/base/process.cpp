@@ -10,6 +10,9 @@ void start_alone() {
   for (const char* mark : {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMI_RANK", "PMI_FD"})
     if (std::getenv(mark)) return;
   (void)setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Processes that are alone all have the same session folder, where shared file pointers, which nobody
+  // uses, would meet those of another run on this machine.
+  (void)setenv("OMPI_MCA_sharedfp", "^sm", 0);
 }
 
 KeptSignals::KeptSignals() {

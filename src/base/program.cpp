@@ -11,6 +11,7 @@
 
 #include "command_line.hpp"
 #include "names.hpp"
+#include "places_of_petsc.hpp"
 #include "process.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
@@ -121,13 +122,17 @@ void start_petsc(std::vector<char*>& arguments) {
         take_petsc_message() + "; correct or remove them");
 }
 
-int run_in_petsc(const Program& program, const CommandLine& line, const std::vector<Written>& written) {
+int run_in_petsc(const Program& program, const CommandLine& line, const std::vector<Written>& own) {
   std::vector<std::string> words = petsc_arguments(program, line);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   start_petsc(arguments);
   const int code = guarded(program.name, [&] {
+    std::vector<Written> written;
+    for (const std::string& file : line.option_files)
+      for (const Written& option : options_of_petsc_file(file)) written.push_back(option);
+    written.insert(written.end(), own.begin(), own.end());
     fill_database(program, written, arguments);
     Options options(program.name, program.schema, written, program.solvers);
     program.run(options);

@@ -34,6 +34,9 @@ std::string key_text(const Node& key) {
   return key.text;
 }
 
+/// How odd a plain word is; of a list the oddest is remembered.
+int rank(const std::string& word) { return word.empty() ? 0 : static_cast<int>(plain_yaml(word)); }
+
 class Entries {
  public:
   /// Below `prefix`, which ends with _ or is empty.
@@ -101,8 +104,7 @@ class Entries {
   }
 
   static void add_word(const Node& word, YamlEntry& entry) {
-    if (word.plain && entry.doubt.empty() && plain_yaml(word.text) != PlainYaml::text)
-      entry.doubt = word.text;
+    if (word.plain && rank(word.text) > rank(entry.doubt)) entry.doubt = word.text;
     entry.value = entry.value.value_or("") + word.text;
   }
 

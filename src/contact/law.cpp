@@ -1,33 +1,31 @@
 #include "slipscale/contact/law.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
-namespace {
-
-const std::vector<std::string> memory_options = {"friction_length", "friction_time", "friction_rate",
-                                                 "friction_rate_reference", "friction_threshold"};
-
-}  // namespace
 
 Schema friction_schema() {
   return {
       {"friction_law", Kind::text, "", required, range::one_of({"none", "coulomb", "regularized"}),
        "law of friction between body and surface; regularized is the simplified Prakash-Clifton law"},
-      {"friction_coefficient", Kind::real, "1", required, range::non_negative, "coefficient of friction, mu"},
-      {"friction_length", Kind::real, "m", required, range::non_negative,
+      {"friction_coefficient", Kind::real, "1", required, range::physical_non_negative,
+       "coefficient of friction, mu"},
+      {"friction_length", Kind::real, "m", required, range::physical_non_negative,
        "slip distance over which the traction follows the pressure, L*; T = L*/|V|"},
-      {"friction_time", Kind::real, "s", absent, range::non_negative,
+      {"friction_time", Kind::real, "s", absent, range::physical_non_negative,
        "relaxation time T itself, in place of the length"},
       {"friction_rate", Kind::text, "", "surface", range::one_of({"surface", "slip"}),
        "what T is made with: the surface's speed, T = L*/|V|, or the slip rate, T = L/(|slip rate| + V*)"},
-      {"friction_rate_reference", Kind::real, "m/s", required, range::positive, "V* of `rate: slip`"},
+      {"friction_rate_reference", Kind::real, "m/s", required, range::physical_positive,
+       "V* of `rate: slip`"},
       {"friction_threshold", Kind::text, "", "instantaneous", range::one_of({"instantaneous", "regularized"}),
-       "a node sticks while |tau| is below mu p (the paper's), or below a strength that itself relaxes to mu "
-       "p"},
+       "a node sticks while |tau| is below mu p, as in Peillex, Baillet and Berthier (IJTC2007-44438), or "
+       "below a strength that itself relaxes to mu p"},
   };
 }
 
@@ -37,9 +35,13 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
   if (law == "none")
     options.refuse_idle({"friction_coefficient"},
                         {"with -friction_law none", "give -friction_law coulomb", {"friction_law"}});
-  if (law != "regularized")
-    options.refuse_idle(memory_options,
+  if (law != "regularized") {
+    auto memory = names_in(friction_schema());  // all that the other laws do not have
+    std::erase(memory, "friction_law");
+    std::erase(memory, "friction_coefficient");
+    options.refuse_idle(memory,
                         {"with -friction_law " + law, "give -friction_law regularized", {"friction_law"}});
+  }
   if (law == "none") return choice;
   choice.law = law == "coulomb" ? FrictionChoice::Law::coulomb : FrictionChoice::Law::regularized;
   choice.coefficient = options.real("friction_coefficient");
@@ -68,6 +70,12 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
     choice.time = choice.length / std::abs(surface.speed);
   }
   return choice;
+}
+
+double shortest_memory(const FrictionChoice& choice, double surface_speed) {
+  if (choice.law != FrictionChoice::Law::regularized) return std::numeric_limits<double>::infinity();
+  if (!choice.by_slip_rate) return choice.time;
+  return choice.length / (std::abs(surface_speed) + choice.rate_reference);
 }
 
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {

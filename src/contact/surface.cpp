@@ -3,12 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace slipscale {
+#include "slipscale/base/cosine_ramp.hpp"
+#include "slipscale/base/physical_range.hpp"
 
-double cosine_ramp(double time, double duration) {
-  if (time >= duration) return 1;
-  return time <= 0 ? 0 : 0.5 * (1 - std::cos(std::numbers::pi * time / duration));
-}
+namespace slipscale {
 
 double Surface::velocity(double time) const { return speed * cosine_ramp(time, ramp); }
 
@@ -21,9 +19,9 @@ Schema surface_schema() {
   return {
       {"surface_boundary", Kind::text, "", absent, range::any,
        "the body's boundary that meets the rigid surface; without it there is no surface"},
-      {"surface_height", Kind::real, "m", "0", range::any, "height of the rigid surface"},
-      {"surface_speed", Kind::real, "m/s", required, range::any, "speed of the surface along +x, V"},
-      {"surface_speed_ramp", Kind::real, "s", "0", range::non_negative,
+      {"surface_height", Kind::real, "m", "0", range::physical, "height of the rigid surface"},
+      {"surface_speed", Kind::real, "m/s", required, range::physical, "speed of the surface along +x, V"},
+      {"surface_speed_ramp", Kind::real, "s", "0", range::physical_non_negative,
        "time in which the surface reaches its speed, along a cosine"},
   };
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/cosine_ramp.hpp"
 #include "slipscale/base/print.hpp"
-#include "slipscale/contact/surface.hpp"
 
 namespace slipscale {
 
@@ -41,7 +41,7 @@ Loads::Loads(const Mesh& mesh, const std::vector<BoundaryCondition>& conditions,
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     const BoundaryCondition& condition = conditions[c];
     ramps_.push_back(condition.ramp);
-    if (condition.pressure == 0 && condition.shear == 0) continue;
+    if (condition.pressure == 0 && condition.shear == 0 && !condition.is_straight()) continue;
     const Boundary& boundary = *mesh.find_boundary(condition.boundary);
     std::vector<Entry> own;
     for (int i : boundary.nodes) own.push_back({nodes.slot_of(i), c, {0, 0}});
@@ -71,7 +71,7 @@ void Loads::apply(double time, const StepCoefficients& step, BoundaryNodes& node
     for (int axis = 0; axis < 2; ++axis) {
       const double force = entry.force[axis] * level;
       nodes.load[entry.slot][axis] += force;
-      push(state, step, nodes.node[entry.slot], axis, force / nodes.mass[entry.slot]);
+      accelerate(state, step, nodes.node[entry.slot], axis, force / nodes.mass[entry.slot]);
     }
   }
 }
@@ -111,6 +111,10 @@ bool Supports::prescribes(int slot, int axis) const {
                      [&](const Entry& entry) { return entry.slot == slot && entry.axis == axis; });
 }
 
+void Supports::start(const BoundaryNodes& nodes, Vector2* velocity) const {
+  for (const Entry& entry : entries_) velocity[nodes.node[entry.slot]][entry.axis] = 0;
+}
+
 void Supports::apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes,
                      const NodalState& state) const {
   std::size_t known = ramps_.size();
@@ -120,7 +124,7 @@ void Supports::apply(double next_time, const StepCoefficients& step, BoundaryNod
     const int i = nodes.node[entry.slot];
     const double target = entry.initial + entry.change * level;
     const double acceleration = (target - state.displacement[i][entry.axis]) / step.displacement;
-    push(state, step, i, entry.axis, acceleration);
+    accelerate(state, step, i, entry.axis, acceleration);
     state.displacement[i][entry.axis] = target;
     nodes.support[entry.slot][entry.axis] = acceleration * nodes.mass[entry.slot];
   }

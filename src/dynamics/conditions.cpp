@@ -1,19 +1,33 @@
 #include "slipscale/dynamics/conditions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
 namespace {
 
-const Range component = range::one_of_or_number({"free", "fixed"}, range::any);
+using Straight = BoundaryCondition::Straight;
 
-std::optional<double> prescribed(const Options& options, const std::string& name) {
-  const std::string text = options.text(name);
-  if (text == "free") return std::nullopt;
-  return text == "fixed" ? 0.0 : std::strtod(text.c_str(), nullptr);
+const Range along_x = range::one_of_or_number({"free", "fixed"}, range::physical);
+const Range along_y = range::one_of_or_number({"free", "fixed", "rigid", "tilting"}, range::physical);
+
+/// Sides that face along an axis by less than this part of their length do not face along it at all: that is
+/// far more than rounding tilts a straight side.
+constexpr double aslant = 1e-6;
+
+/// The displacement that is imposed along an axis, and whether the side is kept straight instead.
+void read_motion(const Options& options, const std::string& prefix, BoundaryCondition& condition) {
+  for (const int axis : {0, 1}) {
+    const std::string text = options.text(prefix + (axis == 0 ? "x" : "y"));
+    if (text == "rigid") condition.straight = Straight::rigid;
+    if (text == "tilting") condition.straight = Straight::tilting;
+    if (text == "free" || (axis == 1 && condition.is_straight())) continue;
+    condition.displacement[axis] = text == "fixed" ? 0.0 : std::strtod(text.c_str(), nullptr);
+  }
 }
 
 std::string component_text(const std::optional<double>& displacement) {
@@ -25,8 +39,8 @@ std::string component_text(const std::optional<double>& displacement) {
 std::array<bool, 2> facing(const Mesh& mesh, const Boundary& boundary) {
   int found[2] = {0, 0};
   for (const BoundaryEdge& edge : boundary.edges)
-    for (int axis = 0; axis < 2; ++axis)  // rounding tilts a straight side by far less
-      found[axis] |= std::abs(edge.outward[axis]) > 1e-6 * std::hypot(edge.outward[0], edge.outward[1]);
+    for (int axis = 0; axis < 2; ++axis)
+      found[axis] |= std::abs(edge.outward[axis]) > aslant * std::hypot(edge.outward[0], edge.outward[1]);
   MPI_Allreduce(MPI_IN_PLACE, found, 2, MPI_INT, MPI_MAX,
                 PetscObjectComm(reinterpret_cast<PetscObject>(mesh.dm.get())));
   return {found[0] != 0, found[1] != 0};
@@ -51,30 +65,57 @@ void read_tractions(const Options& options, const Mesh& mesh, const Boundary& bo
     condition.pressure = options.real(prefix + "pressure");
 }
 
+/// What presses a straight side: a force is > 0 in compression, as pressure is, so its direction is that
+/// against which the side faces.
+void read_plate(const Options& options, const Mesh& mesh, const Boundary& boundary,
+                BoundaryCondition& condition) {
+  const std::string prefix = "boundary_" + boundary.name + "_";
+  if (!condition.is_straight()) {
+    options.refuse_idle(
+        {prefix + "force", prefix + "mass"},
+        {"on a side that is not kept straight", "give -" + prefix + "y rigid", {prefix + "y"}});
+    return;
+  }
+  if (!(std::abs(boundary.normal[1]) > aslant))
+    throw UserError("-" + prefix + "y keeps a side straight that is pressed along y, but boundary '" +
+                    boundary.name + "' faces along x; make it free, fixed or a displacement");
+  if (condition.straight == Straight::tilting && mesh.periodic[0])
+    throw UserError("-" + prefix + "y tilting turns the side, which a body that is periodic along x cannot " +
+                    "follow; give rigid, or open the periodic sides with -mesh_periodic false");
+  condition.plate_force = (boundary.normal[1] > 0 ? -1 : 1) * options.real(prefix + "force");
+  condition.plate_mass = options.real(prefix + "mass");
+}
+
 void read_ramp(const Options& options, const std::string& prefix, BoundaryCondition& condition) {
   const auto moves = [](const std::optional<double>& displacement) { return displacement.value_or(0) != 0; };
   if (moves(condition.displacement[0]) || moves(condition.displacement[1]) || condition.pressure != 0 ||
-      condition.shear != 0)
+      condition.shear != 0 || condition.plate_force != 0)
     condition.ramp = options.real(prefix + "ramp");
   else
     options.refuse_idle({prefix + "ramp"},
-                        {"where no displacement, pressure or shear is imposed",
-                         "impose one",
-                         {prefix + "x", prefix + "y", prefix + "pressure", prefix + "shear"}});
+                        {"where no displacement, pressure, shear or force is imposed", "impose one",
+                         names_in(boundary_schema(), "boundary_", condition.boundary)});
 }
 
 }  // namespace
 
 Schema boundary_schema() {
   return {
-      {"boundary_<boundary>_x", Kind::text, "m", "free", component,
+      {"boundary_<boundary>_x", Kind::text, "m", "free", along_x,
        "free, fixed at its initial value, or the displacement along x that is imposed"},
-      {"boundary_<boundary>_y", Kind::text, "m", "free", component, "the same along y"},
-      {"boundary_<boundary>_pressure", Kind::real, "Pa", "0", range::any, "pressure on it, > 0 compresses"},
-      {"boundary_<boundary>_shear", Kind::real, "Pa", "0", range::any,
+      {"boundary_<boundary>_y", Kind::text, "m", "free", along_y,
+       "the same along y; rigid keeps the side straight and level, tilting straight, under a force"},
+      {"boundary_<boundary>_force", Kind::real, "N/m", "0", range::physical,
+       "force along y on a rigid or tilting side, at its middle, per metre of depth, > 0 compresses"},
+      {"boundary_<boundary>_mass", Kind::real, "kg/m", "0", range::physical_non_negative,
+       "mass of the plate that keeps it straight, per metre of depth; its weight belongs to the force"},
+      {"boundary_<boundary>_pressure", Kind::real, "Pa", "0", range::physical,
+       "pressure on it, > 0 compresses"},
+      {"boundary_<boundary>_shear", Kind::real, "Pa", "0", range::physical,
        "tangential traction on the body along +x"},
       {"boundary_<boundary>_ramp", Kind::real, "s", "0", range::non_negative,
-       "time in which its displacements and tractions reach their values, 0.5(1-cos(pi t/ramp)), then held"},
+       "time in which its displacements, tractions and force reach their values, 0.5(1-cos(pi t/ramp)), then "
+       "held"},
   };
 }
 
@@ -82,16 +123,17 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
   std::vector<BoundaryCondition> conditions;
   for (const Boundary& boundary : mesh.boundaries) {
     const std::string prefix = "boundary_" + boundary.name + "_";
-    bool any = false;
-    for (const char* key : {"x", "y", "pressure", "shear", "ramp"}) any = any || options.given(prefix + key);
-    if (!any) continue;
+    const auto names = names_in(boundary_schema(), "boundary_", boundary.name);
+    if (std::ranges::none_of(names, [&](const auto& name) { return options.given(name); })) continue;
     if (boundary.interior)
       throw UserError("-" + prefix + "…: boundary '" + boundary.name +
                       "' lies inside the body (a periodic seam or an interface), where no condition can act; "
                       "remove it, or open the periodic sides with -mesh_periodic false");
-    BoundaryCondition condition{boundary.name, {}, 0, 0, 0};
-    condition.displacement = {prescribed(options, prefix + "x"), prescribed(options, prefix + "y")};
+    BoundaryCondition condition;
+    condition.boundary = boundary.name;
+    read_motion(options, prefix, condition);
     read_tractions(options, mesh, boundary, condition);
+    read_plate(options, mesh, boundary, condition);
     read_ramp(options, prefix, condition);
     conditions.push_back(condition);
   }
@@ -99,8 +141,12 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
 }
 
 std::string describe(const BoundaryCondition& condition) {
-  std::string text =
-      "x " + component_text(condition.displacement[0]) + ", y " + component_text(condition.displacement[1]);
+  std::string text = "x " + component_text(condition.displacement[0]) + ", y ";
+  if (condition.is_straight())
+    text += std::string(condition.straight == Straight::rigid ? "rigid" : "tilting") + ", force along +y " +
+            engineering(condition.plate_force, "N/m") + format(", plate {:g} kg/m", condition.plate_mass);
+  else
+    text += component_text(condition.displacement[1]);
   if (condition.pressure != 0) text += ", pressure " + engineering(condition.pressure, "Pa");
   if (condition.shear != 0) text += ", shear " + engineering(condition.shear, "Pa");
   if (condition.ramp != 0) text += ", ramp " + engineering(condition.ramp, "s");

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "slipscale/dynamics/model.hpp"
-#include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/eigenvalue_bound.hpp"
 
 namespace slipscale {
 namespace {
@@ -97,10 +98,13 @@ double round_up_to_four_digits(double x) {
 
 FrequencyBounds largest_frequency(MPI_Comm comm, const Model& model) {
   const double safe = element_eigenvalue_bound(comm, model.mesh, model.materials);
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(safe)) return {unknown, unknown};
   // Ritz values converge from below, so the residual is added as a margin; the element bound is never
   // exceeded.
   const Ritz ritz = lanczos(comm, model, 300, 1e-4);
   const double sharp = std::min(safe, ritz.value + ritz.residual);
+  if (!std::isfinite(ritz.value + ritz.residual)) return {unknown, unknown};
   return {round_up_to_four_digits(std::sqrt(sharp)), std::sqrt(safe)};
 }
 

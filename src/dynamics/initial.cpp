@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/contact/surface.hpp"
 #include "slipscale/dynamics/conditions.hpp"
 
@@ -22,16 +23,18 @@ void refuse_unless_uniform(const std::vector<Material>& materials) {
 
 Schema initial_schema() {
   return {
-      {"initial_velocity", Kind::reals, "m/s", "0,0", range::any,
+      {"initial_velocity", Kind::reals, "m/s", "0,0", range::physical,
        "velocity of the whole body at the start, vx,vy"},
-      {"initial_sine_amplitude", Kind::real, "m/s", "0", range::any,
+      {"initial_rotation", Kind::real, "rad/s", "0", range::physical,
+       "turns the body counter-clockwise about the middle of the block at the start, added to the velocity"},
+      {"initial_sine_amplitude", Kind::real, "m/s", "0", range::physical,
        "adds v_x = amplitude cos(2 pi x/wavelength)(1-y/H)^2 at the start, for stability studies"},
-      {"initial_sine_wavelength", Kind::real, "m", required, range::positive, "its wavelength"},
-      {"initial_gap", Kind::real, "m", "0", range::non_negative,
+      {"initial_sine_wavelength", Kind::real, "m", required, range::physical_positive, "its wavelength"},
+      {"initial_gap", Kind::real, "m", "0", range::physical_non_negative,
        "lifts the body off the surface at the start"},
-      {"initial_pressure", Kind::real, "Pa", "0", range::any,
+      {"initial_pressure", Kind::real, "Pa", "0", range::physical,
        "starts from the uniform state u_y = -p y/C22; friction remembers this pressure"},
-      {"initial_shear", Kind::real, "Pa", "0", range::any,
+      {"initial_shear", Kind::real, "Pa", "0", range::physical,
        "starts from the uniform state u_x = tau(H-y)/C66; friction remembers this traction"},
   };
 }
@@ -41,6 +44,7 @@ InitialState read_initial(const Options& options) {
   const auto velocity = options.reals("initial_velocity");
   if (velocity.size() != 2) throw UserError("-initial_velocity needs two numbers vx,vy in m/s");
   initial.velocity = {velocity[0], velocity[1]};
+  initial.rotation = options.real("initial_rotation");
   initial.amplitude = options.real("initial_sine_amplitude");
   if (initial.amplitude != 0)
     initial.wavelength = options.real("initial_sine_wavelength");
@@ -60,6 +64,12 @@ InitialState read_initial(const Options& options) {
 void set_initial(const InitialState& initial, const Mesh& mesh, const std::vector<Material>& materials,
                  Vector2* displacement, Vector2* velocity) {
   if (initial.pressure != 0 || initial.shear != 0) refuse_unless_uniform(materials);
+  if (initial.rotation != 0 && (mesh.periodic[0] || mesh.periodic[1]))
+    throw UserError(
+        "-initial_rotation turns the body, which a periodic one cannot follow; remove it, or open the "
+        "periodic "
+        "sides with -mesh_periodic false");
+  const Vector2 middle{0.5 * (mesh.lower[0] + mesh.upper[0]), 0.5 * (mesh.lower[1] + mesh.upper[1])};
   const double bottom = mesh.lower[1], height = mesh.upper[1] - bottom;
   for (int i = 0; i < mesh.nodes.size(); ++i) {
     const double x = mesh.nodes.position[i][0], y = mesh.nodes.position[i][1] - bottom;
@@ -67,6 +77,10 @@ void set_initial(const InitialState& initial, const Mesh& mesh, const std::vecto
                        initial.gap - initial.pressure * y / materials.front().c22()};
     if (i >= mesh.nodes.owned) continue;
     velocity[i] = initial.velocity;
+    if (initial.rotation != 0) {
+      velocity[i][0] -= initial.rotation * (mesh.nodes.position[i][1] - middle[1]);
+      velocity[i][1] += initial.rotation * (mesh.nodes.position[i][0] - middle[0]);
+    }
     if (initial.amplitude != 0) {
       const double depth = 1 - y / height;
       velocity[i][0] +=

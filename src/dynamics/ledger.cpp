@@ -71,9 +71,20 @@ void EnergyLedger::add_bulk(BulkSums sums, const BulkPhysics& physics, const Dam
                (sums.increment_force - 0.5 * beta2_ * time_step_ * time_step_ * sums.increment_inertia);
 }
 
+void EnergyLedger::add_plates(const StraightSides& sides) {
+  StraightSide::Inertia sum;
+  for (const auto& side : sides) {
+    sum.past += side->inertia().past;
+    sum.next += side->inertia().next;
+    sum.change += side->inertia().change;
+  }
+  plates_.add(beta2_, sum.past, sum.next);
+  scheme_ -= (beta2_ - 0.5) * 0.5 * beta2_ * time_step_ * time_step_ * sum.change;
+}
+
 Energy EnergyLedger::works() const {
   Energy energy;
-  energy.loads = loads_.done();
+  energy.loads = loads_.done() + plates_.done();
   energy.supports = supports_.done();
   energy.surface_drive = drive_.done();
   energy.friction_heat = heat_.done();
@@ -84,12 +95,14 @@ Energy EnergyLedger::works() const {
 }
 
 void close_balance(Energy& e, double start) {
-  const double supplied = e.loads + e.supports + e.body_force + e.surface_drive;
-  const double lost = e.friction_heat + e.impact_loss + e.damping + e.scheme_dissipation;
+  double supplied = 0, lost = 0, sizes = std::abs(e.strain) + std::abs(start);
+  for (const EnergyTerm& term : energy_terms) {
+    const double value = e.*term.value;
+    if (term.role == EnergyTerm::Role::supplied) supplied += value, sizes += std::abs(value);
+    if (term.role == EnergyTerm::Role::lost) lost += value, sizes += std::abs(value);
+  }
   e.residual = e.kinetic + e.strain - start - supplied + lost;
-  e.flowed += std::abs(e.strain) + std::abs(start) + std::abs(e.loads) + std::abs(e.supports) +
-              std::abs(e.body_force) + std::abs(e.surface_drive) + std::abs(e.friction_heat) +
-              std::abs(e.impact_loss) + std::abs(e.damping) + std::abs(e.scheme_dissipation);
+  e.flowed += sizes;
 }
 
 }  // namespace slipscale

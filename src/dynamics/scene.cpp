@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -33,7 +34,7 @@ const Boundary& known_boundary(const Mesh& mesh, const std::string& name, const 
 /// A node whose y is prescribed is never a contact node.
 void refuse_held_contact(const std::vector<BoundaryCondition>& conditions, const std::string& boundary) {
   for (const BoundaryCondition& condition : conditions)
-    if (condition.boundary == boundary && condition.displacement[1])
+    if (condition.boundary == boundary && (condition.displacement[1] || condition.is_straight()))
       throw UserError("-boundary_" + boundary +
                       "_y prescribes the motion of the boundary that -surface_boundary names, " +
                       "so that none of it could meet the surface; make it free, or name another boundary");
@@ -43,14 +44,14 @@ void refuse_held_contact(const std::vector<BoundaryCondition>& conditions, const
 
 Schema scene_schema() {
   const Schema own{
-      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::any,
+      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::physical,
        "acceleration of every part of the body, ax,ay (gravity)"},
-      {"damping_mass", Kind::real, "1/s", "0", range::non_negative,
+      {"damping_mass", Kind::real, "1/s", "0", range::physical_non_negative,
        "Rayleigh damping proportional to mass, a"},
-      {"damping_stiffness", Kind::real, "s", "0", range::non_negative,
+      {"damping_stiffness", Kind::real, "s", "0", range::physical_non_negative,
        "Rayleigh damping proportional to stiffness, b, lagged by one step"},
       {"time_step", Kind::text, "s", "auto", range::one_of_or_number({"auto"}, range::positive),
-       "auto: safety times the stable step; or seconds, refused above the stable step"},
+       "auto: safety times the stable step, at most the end; or seconds, refused above the stable step"},
       {"time_safety", Kind::real, "1", "0.9", range::unit, "part of the stable step that auto takes"},
       {"time_end", Kind::real, "s", required, range::positive, "simulated time at the end of the run"},
       {"time_beta2",
@@ -78,16 +79,16 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
   scene.beta2 = options.real("time_beta2");
   if (has_surface(options)) {
     scene.surface = read_surface(options);
-    if (!(known_boundary(mesh, scene.surface->boundary, "surface_boundary").normal[1] < 0))
+    constexpr double aslant = 1e-6;  // rounding tilts an upright side by far less
+    if (!(known_boundary(mesh, scene.surface->boundary, "surface_boundary").normal[1] < -aslant))
       throw UserError("-surface_boundary: boundary '" + scene.surface->boundary +
                       "' does not face down, where the rigid surface is; name the lower side of the body");
     refuse_held_contact(scene.conditions, scene.surface->boundary);
     scene.friction = read_friction(options, *scene.surface);
   } else {
-    options.refuse_idle({"surface_speed", "surface_height", "surface_speed_ramp", "friction_law",
-                         "friction_coefficient", "friction_length", "friction_time", "friction_rate",
-                         "friction_rate_reference", "friction_threshold"},
-                        without_surface);
+    auto idle = names_in(surface_schema() + friction_schema());
+    std::erase(idle, "surface_boundary");
+    options.refuse_idle(idle, without_surface);
   }
   if (const auto measured = options.find_text("history_boundary"))
     scene.measured = known_boundary(mesh, *measured, "history_boundary").name;
@@ -118,17 +119,29 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   choice.frequency = largest_frequency(comm, model);
   choice.limit = stable_step(choice.frequency.sharp, scene.beta2, scene.damping);
   choice.safe_limit = stable_step(choice.frequency.safe, scene.beta2, scene.damping);
-  choice.step = time.step ? *time.step : time.safety * choice.limit;
-  if (choice.step > choice.limit)
+  if (!std::isfinite(choice.frequency.sharp))
+    throw UserError(
+        "the largest frequency of the body cannot be computed: the stiffness or the mass of a cell is beyond "
+        "double precision; check the stiffness and density of the materials, and the unit of the mesh, which "
+        "is read in m");
+  if (!(choice.limit > 0))
+    throw UserError(
+        format("-damping_mass {:g} 1/s and -damping_stiffness {:g} s leave no stable step; give less damping",
+               scene.damping.mass, scene.damping.stiffness));
+  choice.step = time.step ? *time.step : std::min(time.safety * choice.limit, time.end);
+  if (!(choice.step <= choice.limit))
     throw UserError(
         format("-time_step is {:.6g} s, above the stable step of {:.6g} s for this mesh, beta2 and damping; "
                "use at most {:.4g} or auto",
                choice.step, choice.limit, 0.99 * choice.limit));
   const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
-  if (!(count <= most_steps))
+  if (!(count <= most_steps))  // nor is it a number where the step is next to nothing
     throw UserError(
         format("-time_end is {:g} s, which takes {:g} steps of {:g} s; a run has at most {:g} steps",
-               time.end, count, choice.step, most_steps));
+               time.end, count, choice.step, most_steps) +
+        (time.step ? ", so give a longer -time_step, or auto"
+                   : "; where the step is far too short, look for the cause in the materials, in "
+                     "-damping_stiffness or in the unit of the mesh"));
   choice.count = static_cast<long>(count);
   return choice;
 }

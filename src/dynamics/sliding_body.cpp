@@ -62,26 +62,48 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       ledger_(scene.beta2, time_step) {
   set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
+  straight_ = std::make_unique<StraightSides>(comm, model.mesh, scene.conditions, boundary_, *supports_,
+                                              u_.data(), w_.data());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
   if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
   if (scene_.surface) set_contact_nodes();
-  model_.multiply(u_.data(), force_.data());
+  start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
   for (int i = 0; i < model.mesh.nodes.owned; ++i)
     start_gravity_ += model.mass[i] * (scene_.body_acceleration[0] * u_.data()[i][0] +
                                        scene_.body_acceleration[1] * u_.data()[i][1]);
 }
 
+/// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt, where the body
+/// was with the velocity that it starts with, and supports with theirs.
+void SlidingBody::start_force() {
+  if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
+  NodalVector past(comm_, model_.mesh.nodes, true);
+  std::copy_n(w_.data(), model_.mesh.nodes.owned, past.data());
+  supports_->start(boundary_, past.data());
+  for (int i = 0; i < model_.mesh.nodes.owned; ++i)
+    for (int axis = 0; axis < 2; ++axis)
+      past.data()[i][axis] = u_.data()[i][axis] - time_step_ * past.data()[i][axis];
+  past.begin_update();
+  past.end_update();
+  model_.multiply(past.data(), force_.data());
+}
+
 void SlidingBody::set_contact_nodes() {
   const Mesh& mesh = model_.mesh;
   const Boundary& boundary = *mesh.find_boundary(scene_.surface->boundary);
   const auto length = tributary_lengths(mesh, boundary);
-  std::string fault;
+  std::string fault, shared;
   for (int i : boundary.nodes) {
     const int slot = boundary_.slot_of(i);
+    if (straight_->holds(slot))
+      shared =
+          "-boundary_…_y keeps a side straight that shares a node with boundary '" + boundary.name +
+          "', which meets the surface; a side that touches the surface cannot be kept straight, so make it "
+          "free along y";
     if (supports_->prescribes(slot, 1)) continue;
     const double clearance = mesh.nodes.position[i][1] - scene_.surface->height;
-    const double tolerance = 1e-9 * (mesh.upper[1] - mesh.lower[1]);
+    const double tolerance = 1e-6 * length[i];  // rounding tilts a straight side by far less
     if (clearance + u_.data()[i][1] < -tolerance)
       fault = format(
           "-surface_height is {:g} m, but the body reaches down to {:g} m at x = {:g} m; lower the surface "
@@ -90,6 +112,7 @@ void SlidingBody::set_contact_nodes() {
           scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], mesh.nodes.position[i][0]);
     contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
   }
+  throw_together(comm_, shared);
   throw_together(comm_, fault);
   const InitialState& initial = scene_.initial;
   if (initial.pressure != 0 || initial.shear != 0)
@@ -144,10 +167,11 @@ void SlidingBody::advance(bool observed) {
   }
   if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
   if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
+  for (const auto& side : *straight_)
+    side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
   if (scene_.surface) {
     surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
-    const ContactStep contact{step.displacement, step.predictor, surface_travel_,
-                              scene_.surface->velocity(now)};
+    const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
     std::visit(
         [&](const auto& law) {
           contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
@@ -157,6 +181,7 @@ void SlidingBody::advance(bool observed) {
   u_.begin_update();
 
   ledger_.add(boundary_, contact_, moving, surface_travel_);
+  if (!straight_->empty()) ledger_.add_plates(*straight_);
   if (physics_.keeps_force())
     ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(),
                      first);
@@ -191,6 +216,11 @@ Energy SlidingBody::local_energy() const {
       energy.body_force += m * scene_.body_acceleration[axis] * kept_[i][axis];
     }
   energy.body_force -= start_gravity_;
+  for (const auto& side : *straight_) {
+    const auto [velocity, acceleration] = side->energies();
+    energy.kinetic += velocity - 2 * correction * acceleration;
+    energy.flowed += velocity + 2 * correction * acceleration;
+  }
   return energy;
 }
 
@@ -202,6 +232,28 @@ Energy SlidingBody::energy() const {
   MPI_Allreduce(MPI_IN_PLACE, &start, 1, MPI_DOUBLE, MPI_SUM, comm_);
   close_balance(energy, start);
   return energy;
+}
+
+Momentum SlidingBody::momentum() const {
+  const Mesh& mesh = model_.mesh;
+  const Vector2 middle{0.5 * (mesh.lower[0] + mesh.upper[0]), 0.5 * (mesh.lower[1] + mesh.upper[1])};
+  Momentum sum;
+  for (int i = 0; i < mesh.nodes.owned; ++i) {
+    const Vector2 &v = v_.data()[i], &x = mesh.nodes.position[i];
+    const double m = model_.mass[i];
+    sum.mass += m;
+    sum.linear = {sum.linear[0] + m * v[0], sum.linear[1] + m * v[1]};
+    sum.angular += m * ((x[0] - middle[0]) * v[1] - (x[1] - middle[1]) * v[0]);
+  }
+  static_assert(sizeof(Momentum) == 4 * sizeof(double));
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 4, MPI_DOUBLE, MPI_SUM, comm_);
+  return sum;
+}
+
+bool SlidingBody::has_touched() const {
+  int touched = contact_.touched;
+  MPI_Allreduce(MPI_IN_PLACE, &touched, 1, MPI_INT, MPI_MAX, comm_);
+  return touched != 0;
 }
 
 }  // namespace slipscale

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <span>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -28,19 +29,28 @@ std::vector<hsize_t> shape_of(hid_t dataset, const std::string& path) {
   return shape;
 }
 
-std::size_t entries(const std::vector<hsize_t>& shape) {
-  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+/// As a double: what a damaged file declares may be more than a whole number can be.
+double entries(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), 1.0, std::multiplies<>());
 }
 
 /// How many numbers the dataset has; refused where the file cannot hold what it declares, before any memory
 /// is asked for. (Nothing of zlib's packs tighter than 1032 : 1.)
-std::size_t stored_entries(hid_t dataset, const std::string& path) {
-  const std::size_t count = entries(shape_of(dataset, path));
+std::size_t stored_entries(hid_t dataset, const std::string& path, bool of_whole_numbers = false) {
+  const double count = entries(shape_of(dataset, path));
   const Hdf5Type type(hdf5(H5Dget_type(dataset), path));
-  const double declared = static_cast<double>(count) * static_cast<double>(H5Tget_size(type));
+  const H5T_class_t kind = H5Tget_class(type);
+  require(kind == H5T_INTEGER || (kind == H5T_FLOAT && !of_whole_numbers), path,
+          of_whole_numbers ? "does not hold whole numbers" : "does not hold numbers");
+  const double declared = count * static_cast<double>(H5Tget_size(type));
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
   require(declared <= 1032 * stored, path, "declares more numbers than the file holds");
-  return count;
+  return static_cast<std::size_t>(count);
+}
+
+void refuse_non_finite(std::span<const double> values, const std::string& path) {
+  require(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }), path,
+          "has an entry that is not a finite number");
 }
 
 /// XDMF's mixed stream: of each cell its code before its points.
@@ -106,6 +116,10 @@ bool GridFile::has(const std::string& dataset) const {
   }
 }
 
+bool GridFile::has_attribute(const std::string& object, const std::string& attribute) const {
+  return H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;
+}
+
 PlaneGrid GridFile::grid() const {
   PlaneGrid grid;
   for (const char* dataset : {"/mesh/coordinates", "/mesh/cells", "/mesh/region"})
@@ -118,8 +132,6 @@ void GridFile::read_mesh(PlaneGrid& grid) const {
   const std::vector<double> x = reals("/mesh/coordinates");
   const auto place = shape("/mesh/coordinates"), cells = shape("/mesh/cells");
   require(place.size() == 2 && place[1] == 2, "/mesh/coordinates", "is not a list of x and y");
-  require(std::all_of(x.begin(), x.end(), [](double number) { return std::isfinite(number); }),
-          "/mesh/coordinates", "has a position that is not a number");
   for (std::size_t k = 0; k < x.size(); k += 2) grid.points.push_back({x[k], x[k + 1]});
   grid.region = integers("/mesh/region");
   grid.regions = texts("/mesh/region", "names");
@@ -134,6 +146,15 @@ void GridFile::read_mesh(PlaneGrid& grid) const {
           "has not as many entries as there are cells");
   require(all_within(grid.corners, grid.points.size()), "/mesh/cells", "names a point that is not there");
   require(all_within(grid.region, grid.regions.size()), "/mesh/region", "has a region without name");
+  const Box box = bounding_box(grid);
+  const double least = 1e-15 * box.extent(0) * box.extent(1);  // of a cell: none is a line or turned over
+  require(least > 0, "/mesh/coordinates", "puts all points on a line");
+  double total = 0;
+  for (const double part : areas(grid)) {
+    require(part > least, "/mesh/cells", "has a cell without area, or clockwise");
+    total += part;
+  }
+  require(total < 1.001 * box.extent(0) * box.extent(1), "/mesh/cells", "has cells that overlap");
 }
 
 std::vector<hsize_t> GridFile::shape(const std::string& dataset) const {
@@ -144,12 +165,13 @@ std::vector<double> GridFile::reals(const std::string& dataset) const {
   const Hdf5Dataset set = open(file_, dataset);
   std::vector<double> values(stored_entries(set, dataset));
   hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
+  refuse_non_finite(values, dataset);
   return values;
 }
 
 std::vector<int> GridFile::integers(const std::string& dataset) const {
   const Hdf5Dataset set = open(file_, dataset);
-  std::vector<int> values(stored_entries(set, dataset));
+  std::vector<int> values(stored_entries(set, dataset, true));
   hdf5(H5Dread(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), dataset);
   return values;
 }
@@ -158,7 +180,8 @@ void GridFile::read_rows(const std::string& dataset, hsize_t rows, hsize_t width
                          hsize_t count, double* to) const {
   const Hdf5Dataset set = open(file_, dataset);
   const auto found = shape_of(set, dataset);
-  require(!found.empty() && found[0] == rows && entries(found) == rows * width, dataset,
+  (void)stored_entries(set, dataset);
+  require(!found.empty() && found[0] == rows && entries(found) == static_cast<double>(rows * width), dataset,
           "does not have one row for each cell or point");
   std::vector<hsize_t> start(found.size(), 0), size(found);
   start[0] = begin;
@@ -169,6 +192,7 @@ void GridFile::read_rows(const std::string& dataset, hsize_t rows, hsize_t width
   if (count == 0) return;
   hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), dataset);
   hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, to), dataset);
+  refuse_non_finite({to, static_cast<std::size_t>(count * width)}, dataset);
 }
 
 double GridFile::number(const std::string& object, const std::string& attribute) const {
@@ -177,8 +201,12 @@ double GridFile::number(const std::string& object, const std::string& attribute)
   const Hdf5Attribute found(
       hdf5(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), what));
   const Hdf5Space space(hdf5(H5Aget_space(found), what));
-  require(H5Sget_simple_extent_npoints(space) == 1, what, "is not one number");
+  const Hdf5Type type(hdf5(H5Aget_type(found), what));
+  const H5T_class_t kind = H5Tget_class(type);
+  require(H5Sget_simple_extent_npoints(space) == 1 && (kind == H5T_FLOAT || kind == H5T_INTEGER), what,
+          "is not one number");
   hdf5(H5Aread(found, H5T_NATIVE_DOUBLE, &value), what);
+  require(std::isfinite(value), what, "is not a finite number");
   return value;
 }
 
@@ -192,7 +220,7 @@ std::vector<std::string> GridFile::texts(const std::string& object, const std::s
           "is not a text of fixed length");
   const auto count = static_cast<std::size_t>(hdf5(H5Sget_simple_extent_npoints(space), what));
   const std::size_t length = H5Tget_size(type);
-  require(length > 0, what, "has a text without size");
+  require(length > 0 && count > 0, what, "is empty");
   std::string all(count * length, '\0');
   hdf5(H5Aread(found, type, all.data()), what);
   std::vector<std::string> list;

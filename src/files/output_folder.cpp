@@ -45,18 +45,19 @@ std::string prepare(const std::string& folder, const std::vector<std::string>& r
 
 }  // namespace
 
-void replace_text_file(const std::string& path, const std::string& text) {
+std::string try_replace_text_file(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".partial";
-  const auto fail = [&] {
-    const std::string reason = std::strerror(errno);
-    (void)std::remove(temporary.c_str());
-    throw LibraryError("cannot write " + path + ": " + reason);
-  };
-  std::FILE* file = std::fopen(temporary.c_str(), "w");
-  if (!file) fail();
-  bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  good = std::fclose(file) == 0 && good;
-  if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) fail();
+  std::FILE* const file = std::fopen(temporary.c_str(), "w");
+  bool good = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (file) good = std::fclose(file) == 0 && good;
+  if (good && std::rename(temporary.c_str(), path.c_str()) == 0) return "";
+  const std::string reason = std::strerror(errno);
+  (void)std::remove(temporary.c_str());
+  return write_fault(path, reason);
+}
+
+void replace_text_file(const std::string& path, const std::string& text) {
+  if (const std::string fault = try_replace_text_file(path, text); !fault.empty()) throw LibraryError(fault);
 }
 
 std::string why_unwritable(const std::string& folder) {
@@ -86,13 +87,7 @@ OutputFolder::~OutputFolder() = default;
 OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;
 
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {
-  std::string fault;
-  try {
-    if (is_root(comm_)) replace_text_file(path(file), text);
-  } catch (const LibraryError& error) {
-    fault = std::string(error.what()) + "; see that -output_folder is writable and its disk has room";
-  }
-  stop_together(comm_, fault);
+  stop_together(comm_, is_root(comm_) ? try_replace_text_file(path(file), text) : "");
 }
 
 }  // namespace slipscale

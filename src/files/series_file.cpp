@@ -13,7 +13,8 @@ namespace slipscale {
 namespace {
 
 constexpr std::size_t chunk_bytes = 16384;  ///< small, because every chunk is written whole, rows or no rows
-constexpr std::size_t header_bytes = 3500;  ///< of a dataset: its header, attributes, place in its group
+constexpr std::size_t header_bytes = 2800;    ///< of a growing dataset: header, attributes, index, its group
+constexpr std::size_t constant_bytes = 1800;  ///< of one that does not grow
 constexpr std::size_t batch_bytes = 8 << 20;  ///< a batch this large does not wait for the clock
 constexpr std::size_t index_bytes = 4096;     ///< what HDF5's index of the chunks may grow by
 constexpr double writing_share = 0.02;  ///< batches are spaced so that writing takes no more of the time
@@ -148,7 +149,7 @@ void SeriesFile::reserve() {
   for (const Column& column : columns_)
     bytes += column.batch.size() + column.chunk + column.bytes + index_bytes;
   if (written_ == 0) bytes += header_bytes * columns_.size();
-  for (const Constant& each : constants_) bytes += header_bytes + sizeof(double) * each.values.size();
+  for (const Constant& each : constants_) bytes += constant_bytes + sizeof(double) * each.values.size();
   reserve_space(path_, size, bytes);
 }
 
@@ -195,7 +196,7 @@ double SeriesFile::bytes(double rows) const {
     sum += header_bytes + chunk * std::ceil(rows * static_cast<double>(column.bytes) / chunk);
   }
   for (const Constant& each : constants_)
-    sum += header_bytes + static_cast<double>(sizeof(double) * each.values.size());
+    sum += constant_bytes + static_cast<double>(sizeof(double) * each.values.size());
   return sum;
 }
 

@@ -1,5 +1,6 @@
 #include "slipscale/files/xdmf.hpp"
 
+#include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/output_folder.hpp"
@@ -106,9 +107,7 @@ std::string xdmf_text(const XdmfDocument& document) {
 }
 
 void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document) {
-  write_together(comm, path, [&] {
-    if (is_root(comm)) replace_text_file(path, xdmf_text(document));
-  });
+  stop_together(comm, is_root(comm) ? try_replace_text_file(path, xdmf_text(document)) : "");
 }
 
 }  // namespace slipscale

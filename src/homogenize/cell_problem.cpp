@@ -2,17 +2,17 @@
 
 #include <cmath>
 
-#include "cell_fit.hpp"
+#include "cell_means.hpp"
+#include "cell_outline.hpp"
 #include "cell_solver.hpp"
 #include "cell_system.hpp"
-#include "slipscale/mesh/outer_boundary.hpp"
-#include "slipscale/mesh/shape_functions.hpp"
-#include "slipscale/solid/element.hpp"
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/homogenize/effective.hpp"
 
 namespace slipscale {
 namespace {
 
-/// Where the whole mesh's first node is, and what the other ranks need to know of it.
 void hold_first_node(const Mesh& mesh, CellSystem& system) {
   for (int i = 0; i < mesh.nodes.owned; ++i)
     if (mesh.nodes.number[i] == 0)
@@ -75,33 +75,6 @@ void apply(int load_case, const Mesh& mesh, CellBoundary boundary, const std::ve
       }
 }
 
-struct CellGeometryView {
-  std::span<const Vector2> corners;
-  int first;
-  double area;
-};
-
-CellGeometryView view(const Mesh& mesh, int cell) {
-  const auto corners = mesh.cells.corners_of(cell);
-  return {corners, mesh.cells.first[cell], cell_area(corners)};
-}
-
-/// Mean strain of a cell: by Gauss's theorem from its edges, on which the displacement is linear.
-Eigen::Vector3d mean_strain(const CellGeometryView& cell, const CellSystem& system) {
-  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
-  const int count = static_cast<int>(cell.corners.size());
-  for (int i = 0; i < count; ++i) {
-    const int j = (i + 1) % count;
-    const Vector2 &a = cell.corners[i], &b = cell.corners[j];
-    const Vector2 outward{b[1] - a[1], a[0] - b[0]};
-    const Vector2 ua = system.displacement(cell.first + i), ub = system.displacement(cell.first + j);
-    const double ux = 0.5 * (ua[0] + ub[0]), uy = 0.5 * (ua[1] + ub[1]);
-    strain +=
-        Eigen::Vector3d{ux * outward[0], uy * outward[1], ux * outward[1] + uy * outward[0]} / cell.area;
-  }
-  return strain;
-}
-
 /// Euclidean norm of the nodal forces of single elements under a unit load, about: stress times the square
 /// root of the area, N/m.
 double force_size(const Mesh& mesh, const std::vector<Material>& materials, CellBoundary boundary) {
@@ -112,64 +85,29 @@ double force_size(const Mesh& mesh, const std::vector<Material>& materials, Cell
   return stress * std::sqrt(mesh.area());
 }
 
-void add_all(MPI_Comm comm, Eigen::Matrix3d& sum) {
-  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 9, MPI_DOUBLE, MPI_SUM, comm);
+/// Names of nearly incompressible regions that are meshed in triangles, in part at least.
+std::vector<std::string> locking_regions(MPI_Comm comm, const Mesh& mesh,
+                                         const std::vector<Material>& materials) {
+  std::vector<int> triangles(mesh.regions.size(), 0);
+  for (int element = 0; element < mesh.cells.size(); ++element)
+    if (mesh.cells.corner_count(element) == 3) triangles[mesh.cells.region[element]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, triangles.data(), static_cast<int>(triangles.size()), MPI_INT, MPI_MAX, comm);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (triangles[k] && nearly_incompressible(materials[k].stiffness)) names.push_back(mesh.regions[k].name);
+  return names;
 }
 
-/// What a displacement under load case k contributes: column k of every mean.
-void measure(const Mesh& mesh, const std::vector<Material>& materials, const CellSystem& system, int k,
-             CellSolution& solution, std::vector<Eigen::Matrix<double, 8, load_cases>>& displacements) {
-  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const CellGeometryView geometry = view(mesh, cell);
-    const Eigen::Vector3d strain = mean_strain(geometry, system);
-    solution.localisation[cell].col(k) = strain;
-    for (std::size_t c = 0; c < geometry.corners.size(); ++c) {
-      const Vector2 u = system.displacement(geometry.first + static_cast<int>(c));
-      displacements[cell](2 * static_cast<int>(c), k) = u[0];
-      displacements[cell](2 * static_cast<int>(c) + 1, k) = u[1];
-    }
-    if (!mesh.cells.owned[cell]) continue;
-    solution.mean_localisation.col(k) += geometry.area * strain;
-    solution.stiffness.col(k) += geometry.area * (materials[mesh.cells.region[cell]].stiffness * strain);
-  }
-}
-
-Eigen::Matrix3d energy(const Mesh& mesh, const std::vector<Material>& materials,
-                       const std::vector<Eigen::Matrix<double, 8, load_cases>>& displacements) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    if (!mesh.cells.owned[cell]) continue;
-    const CellGeometryView geometry = view(mesh, cell);
-    const auto rows = 2 * static_cast<Eigen::Index>(geometry.corners.size());
-    const auto u = displacements[cell].topRows(rows);
-    sum +=
-        u.transpose() * element_stiffness(geometry.corners, materials[mesh.cells.region[cell]].stiffness) * u;
-  }
-  return sum;
-}
-
-/// Under unit stresses the means give the compliance; what was found per unit stress becomes per unit strain.
-void per_unit_strain(CellSolution& solution) {
-  const Eigen::Matrix3d per_strain = solution.mean_localisation.inverse();
-  for (Eigen::Matrix3d& a : solution.localisation) a = (a * per_strain).eval();
-  solution.stiffness = (solution.stiffness * per_strain).eval();
-  solution.energy_stiffness = (per_strain.transpose() * solution.energy_stiffness * per_strain).eval();
-  solution.mean_localisation = (solution.mean_localisation * per_strain).eval();
+void refuse_mechanism(const Mesh& mesh, const CellSolution& solution) {
+  constexpr double nothing = 1e-10;
+  if (solution.holes.count > 0 && excess(solution.stiffness, Eigen::Matrix3d::Zero()) < nothing)
+    throw UserError(format(
+        "the cell of '{}' bears no load in some direction: its holes leave a mechanism (parts that hang "
+        "by one node, or a pore from side to side); connect the solid",
+        mesh.file));
 }
 
 }  // namespace
-
-std::vector<Eigen::Matrix3d> phase_means(MPI_Comm comm, const Mesh& mesh, const CellSolution& solution) {
-  std::vector<Eigen::Matrix3d> means(mesh.regions.size(), Eigen::Matrix3d::Zero());
-  for (int cell = 0; cell < mesh.cells.size(); ++cell)
-    if (mesh.cells.owned[cell])
-      means[mesh.cells.region[cell]] += view(mesh, cell).area * solution.localisation[cell];
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    add_all(comm, means[k]);
-    means[k] /= mesh.regions[k].area;
-  }
-  return means;
-}
 
 const char* name(CellBoundary boundary) {
   switch (boundary) {
@@ -185,32 +123,26 @@ const char* name(CellBoundary boundary) {
 
 CellSolution solve_cell(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials,
                         CellBoundary boundary) {
-  const std::vector<OuterEdge> outer = outer_edges(mesh);
-  refuse_unfit(comm, mesh, boundary, outer);
+  const CellOutline outline = cell_outline(comm, mesh, boundary);
   CellSystem system(comm, mesh, materials);
-  hold_supports(comm, mesh, boundary, outer, system);
+  hold_supports(comm, mesh, boundary, outline.outside, system);
   CellSolver solver(comm, system, force_size(mesh, materials, boundary));
   CellSolution solution;
   solution.boundary = boundary;
   solution.set_up_seconds = solver.set_up_seconds();
   solution.solver = solver.description();
+  solution.idle_options = solver.idle_options();
+  solution.locking = locking_regions(comm, mesh, materials);
   solution.unknowns = 2 * mesh.nodes.total;
-  solution.localisation.resize(static_cast<std::size_t>(mesh.cells.size()));
-  std::vector<Eigen::Matrix<double, 8, load_cases>> displacements(
-      static_cast<std::size_t>(mesh.cells.size()));
+  CellMeans means(comm, system, outline);
   for (int k = 0; k < load_cases; ++k) {
-    apply(k, mesh, boundary, outer, system);
+    apply(k, mesh, boundary, outline.outside, system);
     solution.cost[k] = solver.solve(k);
-    measure(mesh, materials, system, k, solution, displacements);
+    means.add(k);
   }
-  solution.energy_stiffness = energy(mesh, materials, displacements);
-  const double area = mesh.area();
-  for (Eigen::Matrix3d* mean :
-       {&solution.stiffness, &solution.energy_stiffness, &solution.mean_localisation}) {
-    add_all(comm, *mean);
-    *mean /= area;
-  }
+  means.finish(solution);
   if (boundary == CellBoundary::subc) per_unit_strain(solution);
+  refuse_mechanism(mesh, solution);
   return solution;
 }
 

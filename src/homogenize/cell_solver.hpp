@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "cell_system.hpp"
 
 namespace slipscale {
@@ -16,6 +19,8 @@ class CellSolver {
   CaseCost solve(int load_case);
 
   double set_up_seconds() const { return seconds_; }
+  /// Options of the user's that an iterative solver would read, and a factorisation does not.
+  std::vector<std::string> idle_options() const;
   std::string description() const;  ///< "cg + gamg", say
 
  private:
@@ -25,6 +30,9 @@ class CellSolver {
   /// that SNES looks at, and SNES is content with what they reach, so that one Newton step will do; Cholesky
   /// is that of MUMPS.
   void complete_choice();
+  void set_up();
+  bool is_direct() const;
+  [[noreturn]] void refuse_factorisation() const;
   [[noreturn]] void refuse(int load_case, const CaseCost& cost, SNESConvergedReason reason) const;
 
   CellSystem& system_;

@@ -66,6 +66,7 @@ Eigen::Matrix3d voigt_bound(const std::vector<Phase>& phases) {
 }
 
 Eigen::Matrix3d reuss_bound(const std::vector<Phase>& phases) {
+  if (std::ranges::any_of(phases, &Phase::is_empty)) return Eigen::Matrix3d::Zero();
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (const Phase& phase : phases) mean += phase.fraction * phase.material.stiffness.inverse();
   return mean.inverse();
@@ -74,6 +75,11 @@ Eigen::Matrix3d reuss_bound(const std::vector<Phase>& phases) {
 bool is_isotropic(const Eigen::Matrix3d& c) {
   return (c - plane_isotropic(plane_bulk_modulus(c), c(2, 2))).cwiseAbs().maxCoeff() <=
          1e-9 * c.cwiseAbs().maxCoeff();
+}
+
+bool nearly_incompressible(const Eigen::Matrix3d& stiffness) {
+  constexpr double locking = 0.49;
+  return engineering_constants(stiffness).poisson > locking;
 }
 
 std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases) {
@@ -89,7 +95,9 @@ std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases
   }
   const auto [k_least, k_most] = std::minmax(k[0], k[1]);
   const auto [g_least, g_most] = std::minmax(g[0], g[1]);
-  const auto reference = [](double bulk, double shear) { return bulk * shear / (bulk + 2 * shear); };
+  const auto reference = [](double bulk, double shear) {
+    return shear > 0 ? bulk * shear / (bulk + 2 * shear) : 0;  // a hole has neither
+  };
   return HashinShtrikman{mixed(k, fraction, g_least), mixed(k, fraction, g_most),
                          mixed(g, fraction, reference(k_least, g_least)),
                          mixed(g, fraction, reference(k_most, g_most))};

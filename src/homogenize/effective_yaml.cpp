@@ -28,7 +28,7 @@ void write_matrix(Yaml& yaml, const std::string& key, const Eigen::Matrix3d& m, 
 }
 
 void write_phases(Yaml& yaml, const Homogenised& found) {
-  yaml.begin("phases", "by region");
+  yaml.begin("phases", found.solutions.front().holes.count > 0 ? "by region, and the holes" : "by region");
   for (std::size_t k = 0; k < found.phases.size(); ++k) {
     const Phase& phase = found.phases[k];
     yaml.begin(phase.region).exact("fraction", phase.fraction, "of the cell's area");
@@ -118,9 +118,14 @@ std::string effective_yaml(const Homogenised& found, const std::map<std::string,
   yaml.remark("The effective material; slide takes it with -material_file <this file>.");
   yaml.line("stiffness", six(material.stiffness), six_names);
   yaml.exact("density", material.density, "kg/m3");
+  std::string doubt;
+  for (const std::string& each : doubts(found)) doubt += (doubt.empty() ? "" : "; ") + each;
+  if (!doubt.empty()) yaml.text("doubt", doubt);
   yaml.remark("how it was found; not read by slide");
   yaml.begin("homogenize").text("version", version);
   yaml.text("boundary", name(found.solutions.front().boundary), "whose stiffness stands above");
+  yaml.text("mesh_checksum", format("fnv1a:{:016x}", found.mesh_checksum), "of the mesh file");
+  yaml.exact("area", found.solutions.front().area, "m2, of the cell, holes included");
   yaml.integer("cells", found.cells).integer("nodes", found.nodes).integer("ranks", found.ranks);
   write_phases(yaml, found);
   for (std::size_t k = 0; k < found.solutions.size(); ++k) write_solution(yaml, found, k);

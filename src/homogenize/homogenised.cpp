@@ -45,6 +45,10 @@ std::string cell_text(const Homogenised& found) {
                             static_cast<long long>(found.nodes));
   Rows rows{{"phase", "fraction", "k [GPa]", "G [GPa]", "material"}};
   for (const Phase& phase : found.phases) {
+    if (phase.is_empty()) {
+      rows.push_back({phase.region, format("{:.6f}", phase.fraction), "-", "-", "empty, with free edges"});
+      continue;
+    }
     const EngineeringConstants e = engineering_constants(phase.material.stiffness);
     const bool isotropic = is_isotropic(phase.material.stiffness);
     rows.push_back({phase.region, format("{:.6f}", phase.fraction), isotropic ? gpa(e.bulk) : "-",
@@ -80,8 +84,10 @@ std::vector<std::size_t> by_stiffness(const Homogenised& found) {
   return order;
 }
 
+bool holds(double excess_found) { return excess_found >= -rounding; }
+
 std::string check(double excess_found) {
-  return format("{} ({:.1e})", excess_found >= -rounding ? "ok" : "VIOLATED", excess_found);
+  return format("{} ({:.1e})", holds(excess_found) ? "ok" : "VIOLATED", excess_found);
 }
 
 /// SUBC <= periodic <= KUBC: each condition admits fewer displacements than the one before.
@@ -134,6 +140,7 @@ std::string verdict(const Homogenised& found, double value, double low, double h
   if (outside <= rounding * value) return "ok";
   if (outside <= bar) return "ok within the error bar";
   const std::string by = format(" by {:.1e}", outside / value);
+  if (outside <= 2 * bar) return "outside" + by + ", twice the error bar at most";  // it is an estimate
   if (found.solutions.front().boundary != CellBoundary::periodic)
     return "outside" + by + ", as " + name(found.solutions.front().boundary) + " may be";
   if (found.refined.empty() && outside < 0.01 * value)
@@ -141,23 +148,35 @@ std::string verdict(const Homogenised& found, double value, double low, double h
   return "VIOLATED" + by;
 }
 
-std::string hashin_shtrikman_text(const Homogenised& found, const EngineeringConstants& e) {
+struct CheckedModulus {
+  const char* name;
+  double value, low, high;  ///< Pa
+  std::string verdict;
+};
+
+/// Hashin and Shtrikman's; none unless the phases are two and isotropic.
+std::vector<CheckedModulus> checked_moduli(const Homogenised& found, const EngineeringConstants& e) {
   const auto bounds = hashin_shtrikman(found.phases);
-  if (!bounds) return "Hashin-Shtrikman bounds: for two isotropic phases only\n";
+  if (!bounds) return {};
   double bulk_bar = 0, shear_bar = 0;
   if (const auto error = discretisation_error(found, 0)) {
     const EngineeringConstants best = engineering_constants(error->extrapolated);
     bulk_bar = std::abs(e.bulk - best.bulk);
     shear_bar = std::abs(e.shear_mean() - best.shear_mean());
   }
-  const auto row = [&](const char* what, double value, double low, double high, double bar) {
-    return std::vector<std::string>{what, gpa(low), gpa(value), gpa(high),
-                                    verdict(found, value, low, high, bar)};
-  };
+  const double shear = e.shear_mean();
+  return {{"plane bulk modulus k", e.bulk, bounds->bulk_low, bounds->bulk_high,
+           verdict(found, e.bulk, bounds->bulk_low, bounds->bulk_high, bulk_bar)},
+          {"shear modulus, mean", shear, bounds->shear_low, bounds->shear_high,
+           verdict(found, shear, bounds->shear_low, bounds->shear_high, shear_bar)}};
+}
+
+std::string hashin_shtrikman_text(const Homogenised& found, const EngineeringConstants& e) {
+  const auto moduli = checked_moduli(found, e);
+  if (moduli.empty()) return "Hashin-Shtrikman bounds: for two isotropic phases only\n";
   Rows rows{{"Hashin-Shtrikman [GPa]", "lower", "found", "upper", "check"}};
-  rows.push_back(row("plane bulk modulus k", e.bulk, bounds->bulk_low, bounds->bulk_high, bulk_bar));
-  rows.push_back(
-      row("shear modulus, mean", e.shear_mean(), bounds->shear_low, bounds->shear_high, shear_bar));
+  for (const CheckedModulus& each : moduli)
+    rows.push_back({each.name, gpa(each.low), gpa(each.value), gpa(each.high), each.verdict});
   return table(rows) + format(
                            "shear modulus from {} to {} GPa over the directions; these bounds are those of "
                            "isotropic mixtures,\n"
@@ -229,6 +248,23 @@ std::optional<Richardson> discretisation_error(const Homogenised& found, std::si
   return richardson(found.solutions[solution].stiffness, found.refined[solution]);
 }
 
+std::vector<std::string> doubts(const Homogenised& found) {
+  std::vector<std::string> all;
+  const CellSolution& first = found.solutions.front();
+  for (const std::string& region : first.locking)
+    all.push_back("region '" + region +
+                  "' is nearly incompressible and meshed in triangles, which lock: too stiff; mesh it in "
+                  "quadrilaterals");
+  if (!holds(excess(voigt_bound(found.phases), first.stiffness))) all.push_back("C violates Voigt's bound");
+  if (!holds(excess(first.stiffness, reuss_bound(found.phases)))) all.push_back("C violates Reuss's bound");
+  for (const CheckedModulus& each :
+       checked_moduli(found, engineering_constants(effective_material(found).stiffness)))
+    if (each.verdict.starts_with("VIOLATED"))
+      all.push_back(format("the {} of {} GPa violates its Hashin-Shtrikman bounds, {} to {} GPa", each.name,
+                           gpa(each.value), gpa(each.low), gpa(each.high)));
+  return all;
+}
+
 std::string describe(const Homogenised& found) {
   const Material material = effective_material(found);
   const EngineeringConstants constants = engineering_constants(material.stiffness);
@@ -239,7 +275,9 @@ std::string describe(const Homogenised& found) {
   text += constants_text(constants) + "\n";
   text += voigt_reuss_text(found) + "\n" + hashin_shtrikman_text(found, constants) + "\n";
   text += residuals_text(found) + "\n" + waves_text(material) + "\n";
-  return text + cost_text(found);
+  text += cost_text(found);
+  for (const std::string& doubt : doubts(found)) text += "warning: " + doubt + "\n";
+  return text;
 }
 
 }  // namespace slipscale

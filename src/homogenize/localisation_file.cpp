@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "slipscale/base/finite.hpp"
+#include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
 #include "slipscale/mesh/shape_functions.hpp"
@@ -64,8 +66,11 @@ void write_stiffness(MPI_Comm comm, SharedFile& file, const Mesh& mesh,
   rows.clear();
   append(solution.stiffness);
   file.write({"/effective/stiffness", "Pa", "effective stiffness; xx, yy, xy with engineering shear"},
-             slice_of_root(comm, {3, 3}), H5T_NATIVE_DOUBLE, rows.data(),
-             [&](hid_t set) { write_attribute(set, "boundary", name(solution.boundary)); });
+             slice_of_root(comm, {3, 3}), H5T_NATIVE_DOUBLE, rows.data(), [&](hid_t set) {
+               write_attribute(set, "boundary", name(solution.boundary));
+               write_attribute(set, "cell_area", solution.area);
+               write_attribute(set, "mesh_checksum", format("fnv1a:{:016x}", mesh.checksum));
+             });
 }
 
 /// Somewhat more than the file will have.
@@ -81,6 +86,10 @@ double predicted_bytes(const MeshImage& image) {
 void write_localisation(MPI_Comm comm, const Mesh& mesh, const std::vector<Material>& materials,
                         const CellSolution& solution, const std::string& folder) {
   const std::string name = "localization.h5";
+  stop_unless_finite(comm,
+                     {solution.localisation.empty() ? nullptr : solution.localisation.front().data(),
+                      9 * solution.localisation.size()},
+                     "the localisation tensor");
   const MeshImage image(comm, mesh);
   SharedFile file(comm, folder + "/" + name, predicted_bytes(image));
   const MeshLayout layout = write_mesh(comm, file, image);

@@ -74,7 +74,10 @@ void read_format(GmshStream& in, const std::string& path, const std::string& byt
 }  // namespace
 
 std::string sentence(const std::string& path, const std::string& fault) {
-  return "mesh '" + path + "'" + (fault.starts_with(":") ? "" : " ") + fault;
+  std::string text = "mesh '" + path + "'" + (fault.starts_with(":") ? "" : " ") + fault;
+  for (char& c : text)  // of a damaged name
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return text;
 }
 
 GmshFile read_gmsh(const std::string& path) {

@@ -1,6 +1,7 @@
 #include "groups.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 namespace slipscale::mesh_stages {
@@ -27,7 +28,8 @@ std::set<int> tags_in_use(const std::vector<Element>& elements, int Element::*en
 }
 
 void check(const std::string& name, std::set<std::string>& known) {
-  if (name.empty() || name.find_first_of(" \t,:#'\"") != name.npos)
+  const auto is_odd = [](char c) { return static_cast<unsigned char>(c) <= ' ' || std::strchr(",:#'\"", c); };
+  if (name.empty() || std::ranges::any_of(name, is_odd))
     throw GmshFault("has a physical group named '" + name +
                     "', which no option can spell; use letters, digits, '-' and '_'");
   if (name == "all")

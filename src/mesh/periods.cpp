@@ -72,8 +72,10 @@ Periods periods_of(const GmshMesh& mesh) {
       return distance(shift, other) <= 2 * little || distance(shift, {-other[0], -other[1]}) <= 2 * little;
     });
   };
-  for (const PeriodicLink& link : mesh.links) {
+  for (const PeriodicLink& link : mesh.links)
     for (const auto& [copy, original] : link.pairs) periods.original[copy] = original;
+  follow_chains(periods.original);
+  for (const PeriodicLink& link : mesh.links) {
     if (link.pairs.empty()) continue;
     const Vector2 shift = shift_of(link, mesh.nodes, little);
     if (distance(shift, {}) > little && !is_known(shift)) periods.shifts.push_back(shift);
@@ -83,7 +85,6 @@ Periods periods_of(const GmshMesh& mesh) {
         format("pairs its sides by {} different shifts, but a plane has two periods; leave "
                "Periodic Curve to the opposite sides of the outer boundary",
                periods.shifts.size()));
-  follow_chains(periods.original);
   for (const PeriodicLink& link : mesh.links)
     for (const auto& [copy, original] : link.pairs)
       if (periods.original[copy] != periods.original[original])

@@ -34,9 +34,11 @@ bool holds(const Box& box, const Vector2& x) {
 
 PointLocation::PointLocation(const PlaneGrid& grid) : grid_(grid), box_(bounding_box(grid)) {
   const double width = box_.extent(0), height = box_.extent(1), cells = grid.cells();
-  if (width > 0 && height > 0)
-    count_ = {std::max(1, static_cast<int>(std::sqrt(cells * width / height))),
-              std::max(1, static_cast<int>(std::sqrt(cells * height / width)))};
+  // As many as there are cells: of a thin strip all of them along it.
+  const auto buckets = [cells](double aspect) {
+    return static_cast<int>(std::clamp(std::sqrt(cells * aspect), 1.0, std::max(cells, 1.0)));
+  };
+  if (width > 0 && height > 0) count_ = {buckets(width / height), buckets(height / width)};
   first_.assign(static_cast<std::size_t>(count_[0]) * count_[1] + 1, 0);
   for (int cell = 0; cell < grid.cells(); ++cell) buckets_of(cell, [&](int b) { ++first_[b + 1]; });
   for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];

@@ -74,7 +74,8 @@ double distance_to_side(const Vector2& x, const OuterSide& side) {
   return distance(x, {side.a[0] + s * way[0], side.a[1] + s * way[1]});
 }
 
-enum class Contact { none, crossing, node_on_side, node_on_node };
+/// The later ones tell more plainly what is wrong.
+enum class Contact { none, node_on_side, crossing, node_on_node };
 
 struct Finding {
   Contact contact = Contact::none;

@@ -64,13 +64,13 @@ std::set<std::string> read_family_names(Options& options) {
     if (name.starts_with(prefix.substr(1))) typed.insert("-" + name);
   for (const std::string& word : typed) {
     const std::string family = family_in(word);
-    if (family.empty())
-      throw UserError(word + " is not a key of a family, whose name is one word; see morphology -help");
-    names.insert(family);
+    if (!family.empty()) names.insert(family);
   }
   for (const std::string& name : names) refuse_region_name(name, "the family", taken);
-  options.know_names("family", {names.begin(), names.end()});
+  options.know_names("family", {names.begin(), names.end()});  // knows the nearest key of a misspelt one
   for (const std::string& word : typed) {
+    if (family_in(word).empty())
+      throw UserError(word + " is not a key of a family, whose name is one word; see morphology -help");
     options.refuse_both("shape", word.substr(1));
     if (options.given(word.substr(1))) count.insert(family_in(word));
   }

@@ -44,21 +44,8 @@ HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const
 }
 
 void HistoryFile::add_energy() {
-  const std::pair<const char*, const char*> terms[] = {
-      {"kinetic", "kinetic energy, with the scheme's correction"},
-      {"strain", "strain energy"},
-      {"loads", "work of the tractions since t = 0"},
-      {"supports", "work of the prescribed displacements since t = 0"},
-      {"body_force", "work of the body acceleration since t = 0"},
-      {"surface_drive", "work of the motor that drives the surface since t = 0"},
-      {"friction_heat", "heat of friction since t = 0"},
-      {"impact_loss", "energy lost where nodes met the surface since t = 0"},
-      {"damping", "energy lost to bulk damping since t = 0"},
-      {"scheme_dissipation", "energy lost to the time scheme since t = 0"},
-      {"residual", "what the balance misses"},
-      {"flowed", "sum of the sizes of all terms, the scale of the residual"}};
-  for (const auto& [name, text] : terms)
-    energy_.push_back(file_.add(std::string("/energy/") + name, {}, "J/m", text));
+  for (const EnergyTerm& term : energy_terms)
+    energy_.push_back(file_.add(std::string("/energy/") + term.name, {}, "J/m", term.description));
 }
 
 void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
@@ -76,11 +63,8 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
     const double fractions[] = {seen.stick, seen.slip, seen.open};
     for (std::size_t k = 0; k < fractions_.size(); ++k) file_.append(fractions_[k], fractions[k]);
   }
-  const Energy& e = seen.energy;
-  const double energy[] = {e.kinetic,       e.strain,        e.loads,       e.supports, e.body_force,
-                           e.surface_drive, e.friction_heat, e.impact_loss, e.damping,  e.scheme_dissipation,
-                           e.residual,      e.flowed};
-  for (std::size_t k = 0; k < energy_.size(); ++k) file_.append(energy_[k], energy[k]);
+  for (std::size_t k = 0; k < energy_.size(); ++k)
+    file_.append(energy_[k], seen.energy.*energy_terms[k].value);
   for (std::size_t p = 0; p < probes.size(); ++p) {
     file_.append(points_[3 * p], probes[p].u.data());
     file_.append(points_[3 * p + 1], probes[p].v.data());

@@ -20,7 +20,8 @@ Directions directions_of(const Boundary& boundary) {
   Vector2 normal = boundary.normal;
   if (normal[0] == 0 && normal[1] == 0) normal = {0, 1};
   Vector2 tangent{normal[1], -normal[0]};
-  if (tangent[0] < -1e-12 || (std::abs(tangent[0]) <= 1e-12 && tangent[1] < 0))
+  constexpr double upright = 1e-6;  // rounding tilts a straight side by far less
+  if (tangent[0] < -upright || (std::abs(tangent[0]) <= upright && tangent[1] < 0))
     tangent = {-tangent[0], -tangent[1]};
   return {normal, tangent};
 }
@@ -89,7 +90,7 @@ void Observer::observe_contact(Observation& seen) const {
   constexpr int width = 9;
   std::vector<double> mine;
   for (int k = 0; k < contact.size(); ++k) {
-    const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity()[contact.node[k]];
+    const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity_n()[contact.node[k]];
     mine.insert(mine.end(),
                 {u[0], u[1], v[0], v[1], contact.clearance[k] + u[1], contact.memory[k].traction,
                  contact.traction[k], contact.force[k][1], static_cast<double>(contact.status[k])});

@@ -9,7 +9,7 @@
 #include "slipscale/base/print.hpp"
 #include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/element.hpp"
-#include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/stress.hpp"
 
 namespace slipscale {
 namespace {
@@ -197,7 +197,7 @@ void Probes::place_in_cells(MPI_Comm comm, const Mesh& mesh, std::vector<char>& 
 std::vector<ProbeReading> Probes::read(const SlidingBody& body) const {
   std::vector<double> states, stresses;
   for (int node : own_node_) {
-    const Vector2 &u = body.displacement_n()[node], &v = body.velocity()[node];
+    const Vector2 &u = body.displacement_n()[node], &v = body.velocity_n()[node];
     states.insert(states.end(), {u[0], u[1], v[0], v[1]});
   }
   const Model& model = body.model();

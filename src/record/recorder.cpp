@@ -6,7 +6,7 @@
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/record/stress_measures.hpp"
-#include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/stress.hpp"
 #include "summary.hpp"
 
 namespace slipscale {
@@ -160,7 +160,7 @@ void Recorder::record_cells(long n) {
         compliance_[cells.region[cell]] * Eigen::Vector3d::Map(stress_[cell].data());
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };
   if (frame)
-    fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity()->data(), rows(stress_),
+    fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), rows(stress_),
                    rows(strain_));
   if (sample) statistics_->add(body_.time(), stress_, strain_);
 }

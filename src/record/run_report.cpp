@@ -6,6 +6,7 @@
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
+#include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/files/yaml.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/version.hpp"
@@ -72,6 +73,8 @@ void Recorder::write_run(const Options& options) const {
     const Mesh& mesh = model.mesh;
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
     yaml.text("mesh_checksum", checksum_text(mesh.checksum), "of the mesh file");
+    for (std::size_t k = 0; k < mesh.notes.size(); ++k)
+      yaml.text(format("mesh_note_{}", k + 1), mesh.notes[k]);
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
     yaml.number("block_width", mesh.upper[0] - mesh.lower[0], "m")
         .number("block_height", mesh.upper[1] - mesh.lower[1], "m");
@@ -95,10 +98,13 @@ std::string Recorder::finish() {
   if (statistics_) statistics_->write(folder_.path());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::vector<double> force = force_.gather();
+  std::vector<std::string> remarks = remarks_at_start(body_);
+  for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
+  const Momentum momentum = body_.momentum();
   std::string text;
   if (is_root(body_.comm()))
     text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, contact_every_, force,
-                         largest_residual_, seconds});
+                         largest_residual_, seconds, std::move(remarks), momentum});
   folder_.write_text("summary.yaml", text);
   return text;
 }

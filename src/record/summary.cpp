@@ -128,18 +128,19 @@ void write_contact(Yaml& yaml, const Window& window, std::pair<double, double> f
 void write_energy(Yaml& yaml, const SummaryInput& in) {
   const Energy& e = in.rows.back().energy;
   yaml.begin("energy", "J/m at the end; works and losses since t = 0");
-  yaml.number("kinetic", e.kinetic);
-  yaml.number("strain", e.strain);
-  yaml.number("loads", e.loads);
-  yaml.number("supports", e.supports);
-  yaml.number("body_force", e.body_force);
-  yaml.number("surface_drive", e.surface_drive);
-  yaml.number("friction_heat", e.friction_heat);
-  yaml.number("impact_loss", e.impact_loss);
-  yaml.number("damping", e.damping);
-  yaml.number("scheme_dissipation", e.scheme_dissipation);
-  yaml.number("residual", e.residual);
+  for (const EnergyTerm& term : energy_terms)
+    if (term.value != &Energy::flowed) yaml.number(term.name, e.*term.value);
   yaml.number("largest_relative_residual", in.largest_residual, "of what flowed, over all rows");
+  yaml.end();
+}
+
+void write_momentum(Yaml& yaml, const SummaryInput& in) {
+  const Momentum& momentum = in.momentum;
+  yaml.begin("body", "at the end, per metre of depth");
+  yaml.number("mass", momentum.mass, "kg/m");
+  yaml.numbers("momentum", {momentum.linear[0], momentum.linear[1]}, "x, y, kg/s");
+  yaml.number("angular_momentum", momentum.angular,
+              "kg m/s, about the middle of the block, counter-clockwise");
   yaml.end();
 }
 
@@ -171,6 +172,12 @@ std::string summary_text(const SummaryInput& in) {
   if (in.measured >= 0) friction = write_load(yaml, in, window);
   if (in.body.scene().surface) write_contact(yaml, window, friction);
   write_energy(yaml, in);
+  write_momentum(yaml, in);
+  for (std::size_t k = 0; k < in.remarks.size(); ++k) {
+    if (k == 0) yaml.begin("notes");
+    yaml.text("note_" + std::to_string(k + 1), in.remarks[k]);
+    if (k + 1 == in.remarks.size()) yaml.end();
+  }
   yaml.begin("cost");
   yaml.number("wall_time", in.seconds, "s, of the steps and their output");
   yaml.number("ns_per_node_and_step", 1e9 * in.seconds / (nodes * static_cast<double>(in.time.count + 1)));

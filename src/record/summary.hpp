@@ -17,6 +17,8 @@ struct SummaryInput {
   const std::vector<double>& force;      ///< a `ForceRecord` of the measured boundary; empty without one
   double largest_residual;               ///< relative to what flowed
   double seconds;                        ///< wall time of the steps
+  std::vector<std::string> remarks;      ///< on the scene and the run, a sentence each
+  Momentum momentum;                     ///< at the end
 };
 
 /// summary.yaml: the headline numbers, on rank 0.

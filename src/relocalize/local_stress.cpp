@@ -53,14 +53,14 @@ void LocalStress::update(std::span<const PlaneTensor> macro_strain) {
 
 LocalStress::Covariances LocalStress::covariances(std::span<const PlaneCovariance> macro_strain) {
   const std::size_t places = macroscopic_.size();
-  std::vector<PlaneCovariance> macroscopic(places);
+  std::vector<CovarianceRoot> macroscopic(places);
   Covariances found{std::vector<PlaneCovariance>(places), std::vector<PlaneCovariance>(places),
                     std::vector<PlaneCovariance>(places)};
-  relocalisation_.macroscopic(macro_strain, macroscopic);
+  relocalisation_.macroscopic_roots(macro_strain, macroscopic);
   relocalisation_.stress_covariance(macroscopic, found.stress);
   relocalisation_.strain_covariance(macroscopic, found.strain);
   std::ranges::transform(macroscopic, found.homogeneous_stress.begin(),
-                         [&](const PlaneCovariance& c) { return transformed(c, effective_); });
+                         [&](const CovarianceRoot& root) { return transformed(root, effective_); });
   return found;
 }
 

@@ -32,14 +32,27 @@ PlaneCovariance six(const Eigen::Matrix3d& c) {
 }
 
 void transform(const std::vector<Eigen::Matrix3d>& tensors, const std::vector<int>& cell,
-               std::span<const PlaneCovariance> from, std::span<PlaneCovariance> to) {
+               std::span<const CovarianceRoot> from, std::span<PlaneCovariance> to) {
   for (std::size_t p = 0; p < cell.size(); ++p) to[p] = transformed(from[p], tensors[cell[p]]);
 }
 
 }  // namespace
 
-PlaneCovariance transformed(const PlaneCovariance& covariance, const Eigen::Matrix3d& t) {
-  return six(t * matrix(covariance) * t.transpose());
+CovarianceRoot square_root(const PlaneCovariance& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix(covariance));
+  const Eigen::Vector3d roots = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  return {six(axes.eigenvectors() * roots.asDiagonal() * axes.eigenvectors().transpose())};
+}
+
+bool is_covariance(const PlaneCovariance& covariance) {
+  constexpr double rounding = 1e-6;  // variances of little beside the mean are differences of large squares
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix(covariance), Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[0] >= -rounding * std::abs(axes.eigenvalues()[2]);
+}
+
+PlaneCovariance transformed(const CovarianceRoot& root, const Eigen::Matrix3d& t) {
+  const Eigen::Matrix3d factor = t * matrix(root.entries);
+  return six(factor * factor.transpose());
 }
 
 Relocalisation::Relocalisation(const LocalisationTensors& tensors, const PlaneGrid& macro, Recovery recovery,
@@ -52,6 +65,17 @@ Relocalisation::Relocalisation(const LocalisationTensors& tensors, const PlaneGr
     concentration_.push_back(tensors.stiffness[tensors.grid.region[cell]] * localisation_[cell]);
 }
 
+void Relocalisation::macroscopic_roots(std::span<const PlaneCovariance> macro_cells,
+                                       std::span<CovarianceRoot> at_places) {
+  macro_roots_.clear();
+  for (const PlaneCovariance& covariance : macro_cells)
+    macro_roots_.push_back(square_root(covariance).entries);
+  roots_.resize(at_places.size());
+  recovery_(std::span<const PlaneCovariance>(macro_roots_), roots_);
+  std::ranges::transform(roots_, at_places.begin(),
+                         [](const PlaneCovariance& r) { return CovarianceRoot{r}; });
+}
+
 void Relocalisation::strain(std::span<const PlaneTensor> macroscopic, std::span<PlaneTensor> local) const {
   multiply(localisation_, micro_cell_, macroscopic, local);
 }
@@ -60,12 +84,12 @@ void Relocalisation::stress(std::span<const PlaneTensor> macroscopic, std::span<
   multiply(concentration_, micro_cell_, macroscopic, local);
 }
 
-void Relocalisation::strain_covariance(std::span<const PlaneCovariance> macroscopic,
+void Relocalisation::strain_covariance(std::span<const CovarianceRoot> macroscopic,
                                        std::span<PlaneCovariance> local) const {
   transform(localisation_, micro_cell_, macroscopic, local);
 }
 
-void Relocalisation::stress_covariance(std::span<const PlaneCovariance> macroscopic,
+void Relocalisation::stress_covariance(std::span<const CovarianceRoot> macroscopic,
                                        std::span<PlaneCovariance> local) const {
   transform(concentration_, micro_cell_, macroscopic, local);
 }

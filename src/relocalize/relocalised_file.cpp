@@ -1,5 +1,6 @@
 #include "slipscale/relocalize/relocalised_file.hpp"
 
+#include "slipscale/base/finite.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
@@ -41,6 +42,7 @@ struct RelocalisedFile::File {
 
   void add(const std::string& name, const char* units, const std::string& text,
            std::span<const PlaneTensor> rows) {
+    stop_unless_finite(comm, {rows.empty() ? nullptr : rows.front().data(), 3 * rows.size()}, text);
     const DatasetDescription about{frame_path(times.size()) + name, units, text};
     data.write({about.path, units, text + "; xx, yy and xy"}, image.cells(), {3},
                rows.empty() ? nullptr : rows.front().data());

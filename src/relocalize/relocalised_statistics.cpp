@@ -1,6 +1,9 @@
 #include "slipscale/relocalize/relocalised_statistics.hpp"
 
+#include <algorithm>
+
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/finite.hpp"
 #include "slipscale/files/statistics_file.hpp"
 #include "slipscale/mesh/point_location.hpp"
 
@@ -46,6 +49,11 @@ StrainStatistics strain_statistics(const StatisticsReader& run, const PlaneGrid&
   std::vector<PlaneCovariance> covariance(all);
   run.read("strain", "mean", mean);
   run.read_covariance("strain", covariance);
+  if (!std::ranges::all_of(covariance, is_covariance))
+    throw UserError("'" + run.path() +
+                    "' (-relocalize_run) is damaged: its covariances of the strain are none (a variance "
+                    "below zero); run slide "
+                    "with -statistics_from again");
   return {picked(mean, cells), picked(covariance, cells)};
 }
 
@@ -59,6 +67,10 @@ void write_relocalised_statistics(MPI_Comm comm, const StatisticsReader& run, co
   strain.mean = flat(local.strain());
   stress.covariance = flat(found.stress);
   strain.covariance = flat(found.strain);
+  stop_unless_finite(comm, stress.mean, "the mean of the relocalised stress");
+  stop_unless_finite(comm, strain.mean, "the mean of the relocalised strain");
+  stop_unless_finite(comm, stress.covariance, "the covariance of the relocalised stress");
+  stop_unless_finite(comm, strain.covariance, "the covariance of the relocalised strain");
   const StatisticsSample sample{.from = run.from(),
                                 .to = run.to(),
                                 .count = static_cast<std::size_t>(run.samples()),

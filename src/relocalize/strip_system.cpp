@@ -3,9 +3,22 @@
 #include <algorithm>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/factorisation.hpp"
 #include "slipscale/relocalize/boundary_layer.hpp"
 
 namespace slipscale {
+namespace {
+
+[[noreturn]] void refuse_singular() {
+  throw UserError(
+      "the strip next to the contact cannot be solved (-relocalize_correction strip): it is singular, so "
+      "parts "
+      "of it hang on nothing, or its stiffnesses differ too much; give another -relocalize_strip, or leave "
+      "the "
+      "correction out");
+}
+
+}  // namespace
 
 StripPoints::StripPoints(const PlaneGrid& grid, const std::vector<char>& inside)
     : grid_(grid), free_(grid.points.size(), -1), contact_(grid.points.size(), -1) {
@@ -85,7 +98,11 @@ void StripSystem::factorise() {
   petsc(KSPGetPC(ksp_, &pc));
   petsc(PCSetType(pc, PCCHOLESKY));
   petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  petsc(KSPSetUp(ksp_));
+  do petsc(KSPSetUp(ksp_));
+  while (enlarge_workspace(ksp_));
+  PCFailedReason reason = PC_NOERROR;
+  petsc(PCGetFailedReason(pc, &reason));
+  if (reason != PC_NOERROR) refuse_singular();
 }
 
 void StripSystem::clear_force() { petsc(VecSet(force_, 0)); }
@@ -111,9 +128,7 @@ void StripSystem::solve() {
   petsc(KSPSolve(ksp_, force_, solution_));
   KSPConvergedReason reason;
   petsc(KSPGetConvergedReason(ksp_, &reason));
-  if (reason < 0)
-    throw LibraryError(std::string("the strip next to the contact could not be solved (KSP ") +
-                       KSPConvergedReasons[reason] + ")");
+  if (reason < 0) refuse_singular();
   petsc(VecScatterBegin(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
   petsc(VecScatterEnd(scatter_, solution_, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
   const PetscScalar* values = nullptr;

@@ -26,41 +26,56 @@ bool same_box(const Box& a, const Box& b) {
   return true;
 }
 
-void refuse_unless_rectangular(const PlaneGrid& micro, const Box& box) {
+void refuse_unless_rectangular(const PlaneGrid& micro, double hole_area, const Box& box) {
   const std::vector<double> parts = areas(micro);
-  const double whole = std::accumulate(parts.begin(), parts.end(), 0.0);
+  const double whole = std::accumulate(parts.begin(), parts.end(), hole_area);
   if (std::abs(whole - box.extent(0) * box.extent(1)) > box_tolerance * whole)
     throw UserError("the periodic cell of -relocalize_tensors does not fill its rectangle " + shown(box) +
-                    ", so it cannot tile the block; homogenise a rectangular cell without holes");
+                    ", so it cannot tile the block; homogenise a rectangular cell");
+}
+
+/// Before the copies are made.
+void refuse_too_many(const PlaneGrid& micro, const Box& unit, const Box& block) {
+  constexpr double most_copies = 1e5, most_cells = 1e8;
+  const double across = block.extent(0) / unit.extent(0), up = block.extent(1) / unit.extent(1);
+  if (across * up > most_copies || across * up * micro.cells() > most_cells)
+    throw UserError(format(
+        "the block of -relocalize_run, {:g} m by {:g} m, would hold {:.4g} by {:.4g} copies of the "
+        "periodic cell of -relocalize_tensors, {:g} m by {:g} m: {:.3g} cells; draw both in metres, or "
+        "relocalise a part of the run (-fields_box)",
+        block.extent(0), block.extent(1), std::ceil(across), std::ceil(up), unit.extent(0), unit.extent(1),
+        across * up * micro.cells()));
 }
 
 /// First and one past the last copy along an axis that reaches into the block.
 std::array<int, 2> copies(const Tiling& tiling, const Box& block, int axis) {
-  const double period = tiling.cell.extent(axis);
+  const double period = tiling.unit.extent(axis);
   return {static_cast<int>(std::floor((block.lower[axis] - tiling.origin[axis]) / period + seam)),
           static_cast<int>(std::ceil((block.upper[axis] - tiling.origin[axis]) / period - seam))};
 }
 
 }  // namespace
 
-Tiling tiling(const PlaneGrid& micro, bool periodic, const Box& block, const std::optional<Vector2>& origin) {
-  const Box cell = bounding_box(micro);
-  if (!origin && same_box(cell, block)) return {cell, cell.lower, false};
+Tiling tiling(const PlaneGrid& micro, bool periodic, const Box& block, const std::optional<Vector2>& origin,
+              double hole_area) {
+  const Box unit = bounding_box(micro);
+  if (!origin && same_box(unit, block)) return {unit, unit.lower, false};
   if (!periodic)
-    throw UserError("-relocalize_tensors are those of a whole block, and their mesh " + shown(cell) +
+    throw UserError("-relocalize_tensors are those of a whole block, and their mesh " + shown(unit) +
                     " is not the block " + shown(block) +
-                    (same_box(cell, block) ? " with another -relocalize_origin" : " of -relocalize_run") +
+                    (same_box(unit, block) ? " with another -relocalize_origin" : " of -relocalize_run") +
                     "; homogenise that block, or a periodic cell (-cell_boundary periodic)");
-  refuse_unless_rectangular(micro, cell);
-  return {cell, origin.value_or(cell.lower), true};
+  refuse_unless_rectangular(micro, hole_area, unit);
+  refuse_too_many(micro, unit, block);
+  return {unit, origin.value_or(unit.lower), true};
 }
 
 Vector2 Tiling::micro_point(const Vector2& x) const {
   if (!repeats) return x;
   Vector2 local{};
   for (int d = 0; d < 2; ++d) {
-    const double offset = x[d] - origin[d], period = cell.extent(d);
-    local[d] = cell.lower[d] + std::clamp(offset - std::floor(offset / period) * period, 0.0, period);
+    const double offset = x[d] - origin[d], period = unit.extent(d);
+    local[d] = unit.lower[d] + std::clamp(offset - std::floor(offset / period) * period, 0.0, period);
   }
   return local;
 }
@@ -88,8 +103,8 @@ Targets TwoScales::tiles() const {
   std::vector<int> kept;
   for (int j = rows[0]; j < rows[1]; ++j)
     for (int i = columns[0]; i < columns[1]; ++i) {
-      const Vector2 shift{tiling_.origin[0] - tiling_.cell.lower[0] + i * tiling_.cell.extent(0),
-                          tiling_.origin[1] - tiling_.cell.lower[1] + j * tiling_.cell.extent(1)};
+      const Vector2 shift{tiling_.origin[0] - tiling_.unit.lower[0] + i * tiling_.unit.extent(0),
+                          tiling_.origin[1] - tiling_.unit.lower[1] + j * tiling_.unit.extent(1)};
       kept.clear();
       for (int cell = 0; cell < micro_.cells(); ++cell) {
         const CellPlace place =

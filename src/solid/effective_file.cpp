@@ -48,6 +48,10 @@ EffectiveFile read_effective_file(const std::string& path, const std::string& op
     throw UserError(
         "-" + option + ": '" + path +
         "' must hold 'stiffness: [c11, c22, c12, c66, c16, c26]' in Pa and 'density:' > 0 in kg/m3");
+  std::string doubt(4096, '\0');
+  PetscBool has_doubt = PETSC_FALSE;
+  petsc(PetscOptionsGetString(database, nullptr, "-doubt", doubt.data(), doubt.size(), &has_doubt));
+  if (has_doubt) file.doubt = doubt.c_str();
   return file;
 }
 

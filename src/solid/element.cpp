@@ -59,6 +59,27 @@ ElementStiffness element_stiffness(std::span<const Vector2> corners, const Eigen
   return k;
 }
 
+ElementStiffness mean_dilatation_stiffness(std::span<const Vector2> corners,
+                                           const Eigen::Matrix3d& elasticity) {
+  if (corners.size() == 3) return element_stiffness(corners, elasticity);
+  Eigen::Matrix<double, 1, 8> mean = Eigen::Matrix<double, 1, 8>::Zero();
+  double area = 0;
+  gauss(corners, [&](const Bilinear& shape, double weight) {
+    const StrainDisplacement b = quadrilateral_strain(corners, shape);
+    mean += weight * (b.row(0) + b.row(1));
+    area += weight;
+  });
+  mean /= area;
+  ElementStiffness k = ElementStiffness::Zero(8, 8);
+  gauss(corners, [&](const Bilinear& shape, double weight) {
+    StrainDisplacement b = quadrilateral_strain(corners, shape);
+    const Eigen::Matrix<double, 1, 8> change = 0.5 * (mean - b.row(0) - b.row(1));
+    b.topRows<2>().rowwise() += change;
+    k += weight * (b.transpose() * elasticity * b);
+  });
+  return k;
+}
+
 std::array<double, 4> corner_areas(std::span<const Vector2> corners) {
   std::array<double, 4> areas{};
   if (corners.size() == 3) {

@@ -5,6 +5,7 @@
 
 #include "effective_file.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -35,13 +36,19 @@ Material from_file(const std::string& option, const std::string& path) {
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
   material.description = six_numbers(material.stiffness) + format(", {:.4g} kg/m3 ({})", file.density, path);
+  if (!file.doubt.empty()) material.description += "; DOUBTFUL: " + file.doubt;
   return material;
 }
 
-/// The material written under `prefix` = "material_<region>_".
-Material read_one(const Options& options, const std::string& prefix) {
-  for (const char* key : {"young", "poisson", "stiffness", "density"})
-    options.refuse_both(prefix + key, prefix + "file");
+std::vector<std::string> options_of(const std::string& region) {
+  return names_in(material_schema(), "material_<region>_", region);
+}
+
+/// The material written under material_<region>_….
+Material read_one(const Options& options, const std::string& region) {
+  const std::string prefix = "material_" + region + "_";
+  for (const std::string& name : options_of(region))
+    if (name != prefix + "file") options.refuse_both(name, prefix + "file");
   for (const char* key : {"young", "poisson"}) options.refuse_both(prefix + key, prefix + "stiffness");
   if (const auto path = options.find_text(prefix + "file")) return from_file(prefix + "file", *path);
   Material material;
@@ -58,23 +65,17 @@ Material read_one(const Options& options, const std::string& prefix) {
   return material;
 }
 
-std::vector<std::string> keys_of(const std::string& prefix) {
-  std::vector<std::string> names;
-  for (const char* key : {"young", "poisson", "stiffness", "density", "file"}) names.push_back(prefix + key);
-  return names;
-}
-
-bool mentioned(const Options& options, const std::string& prefix) {
-  const auto names = keys_of(prefix);
+bool mentioned(const Options& options, const std::string& region) {
+  const auto names = options_of(region);
   return std::any_of(names.begin(), names.end(), [&](const auto& name) { return options.given(name); });
 }
 
 /// A material for all others is idle where there are no others.
 void refuse_idle_shares(const Options& options, const std::vector<std::string>& regions) {
-  std::vector<std::string> own, shared = keys_of("material_all_");
+  std::vector<std::string> own, shared = options_of("all");
   for (const std::string& region : regions) {
-    if (region == "all" || !mentioned(options, "material_" + region + "_")) return;
-    const auto names = keys_of("material_" + region + "_");
+    if (region == "all" || !mentioned(options, region)) return;
+    const auto names = options_of(region);
     own.insert(own.end(), names.begin(), names.end());
   }
   shared.push_back("material_file");
@@ -105,11 +106,11 @@ WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
 
 Schema material_schema() {
   return {
-      {"material_<region>_young", Kind::real, "Pa", required, range::positive, "Young's modulus"},
+      {"material_<region>_young", Kind::real, "Pa", required, range::physical_positive, "Young's modulus"},
       {"material_<region>_poisson", Kind::real, "1", required, poissons_ratio, "Poisson's ratio"},
-      {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::any,
+      {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::physical,
        "c11,c22,c12,c66,c16,c26 in plane strain, in place of young and poisson"},
-      {"material_<region>_density", Kind::real, "kg/m3", required, range::positive, "mass density"},
+      {"material_<region>_density", Kind::real, "kg/m3", required, range::physical_positive, "mass density"},
       {"material_<region>_file", Kind::text, "", absent, range::any,
        "effective.yaml of a homogenised material: stiffness and density"},
       {"material_file", Kind::text, "", absent, range::any,
@@ -119,17 +120,17 @@ Schema material_schema() {
 
 std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions) {
   std::vector<Material> materials;
-  for (const std::string& key : keys_of("material_all_")) options.refuse_both("material_file", key);
+  for (const std::string& key : options_of("all")) options.refuse_both("material_file", key);
   refuse_idle_shares(options, regions);
-  const bool shared = mentioned(options, "material_all_");
+  const bool shared = mentioned(options, "all");
   for (const std::string& region : regions) {
     const std::string own = "material_" + region + "_";
-    if (mentioned(options, own))
-      materials.push_back(read_one(options, own));
+    if (mentioned(options, region))
+      materials.push_back(read_one(options, region));
     else if (const auto shared_file = options.find_text("material_file"))
       materials.push_back(from_file("material_file", *shared_file));
     else if (shared)
-      materials.push_back(read_one(options, "material_all_"));
+      materials.push_back(read_one(options, "all"));
     else
       throw UserError("region '" + region + "' has no material; give -" + own + "young, -" + own +
                       "poisson and -" + own + "density, or one for every region under material_all_");

@@ -62,7 +62,7 @@ TEST_F(IdleOptions, ThatNobodyReadAreRefused) {
 
 /// An option is declared in one place and read in others: forgetting the second is no mistake of the user.
 TEST_F(IdleOptions, ThatNoReaderKnowsAreAMistakeOfTheProgrammer) {
-  for (const std::string& forgotten : {"initial_gap", "boundary_top_pressure", "material_top_young"}) {
+  for (const char* forgotten : {"initial_gap", "boundary_top_pressure", "material_top_young"}) {
     const Options read = options();
     ask_for_all(read, {forgotten});
     EXPECT_THROW(read.refuse_unread(), std::logic_error) << forgotten;

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double mass = 3, length = 0.25, clearance = 0.5, travel = 2e-3;
-constexpr ContactStep step{1e-4, 5e-3, travel, 0.2};
-constexpr double push = mass / step.displacement;  ///< force that moves the node by 1 m over the step, N
+constexpr ContactStep step{{5e-3, 5e-3, 2.5e-3, 1e-4}, travel, 0.2};
+constexpr double push =
+    mass / step.motion.displacement;  ///< force that moves the node by 1 m over the step, N
 
 /// One node of the surface through one call of `enforce`.
 struct Node {
@@ -50,7 +51,7 @@ TEST(ContactNodes, ClosedNodeEndsOnTheSurface) {
     EXPECT_NEAR(node.contact.force[0][1], depth * push, 4 * epsilon * clearance * push);
     EXPECT_EQ(node.contact.pressure[0], node.contact.force[0][1] / length);
     EXPECT_DOUBLE_EQ(node.a[1], node.contact.force[0][1] / mass);
-    EXPECT_DOUBLE_EQ(node.v[1], step.predictor * node.a[1]);
+    EXPECT_DOUBLE_EQ(node.v[1], step.motion.predictor * node.a[1]);
     EXPECT_EQ(node.contact.status[0], ContactStatus::slip);
     EXPECT_EQ(node.u[0], 0.1);
   }
@@ -130,5 +131,5 @@ TEST(ContactNodes, SlipRateIsThatBeforeTheForcesOfTheStep) {
   node.a[0] = 3;
   double seen = 0;
   node.enforce(Spy{&seen});
-  EXPECT_DOUBLE_EQ(seen, step.surface_speed - (0.05 - step.predictor * 3));
+  EXPECT_DOUBLE_EQ(seen, step.surface_speed - (0.05 - step.motion.predictor * 3));
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 #include "scenes.hpp"
 #include "slipscale/solid/element.hpp"
@@ -111,4 +112,46 @@ TEST(LargestFrequency, OfASingleElementIsThatOfTheElement) {
   const FrequencyBounds found = largest_frequency(PETSC_COMM_SELF, model);
   EXPECT_NEAR(found.safe, dense_frequency(mesh, model.materials), 1e-10);
   EXPECT_NEAR(found.sharp / found.safe, 1, 1.1e-3);
+}
+
+namespace {
+
+std::string refusal(const Model& model, const Scene& scene, const TimeChoice& time) {
+  try {
+    choose_step(PETSC_COMM_WORLD, model, scene, time);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+/// An automatic step is no longer than the run.
+TEST(ChooseStep, EndsWithTheRun) {
+  const Mesh mesh = block_mesh({});
+  const Model model(mesh, {isotropic(1, 0.3, 1)}, Model::Storage::full);
+  for (const double end : {1e-6, 1.0, 10.0}) {
+    const TimeStep step = choose_step(PETSC_COMM_WORLD, model, {}, {std::nullopt, 0.9, end});
+    EXPECT_LE(step.step, std::min(end, 0.9 * step.limit));
+    EXPECT_GE(static_cast<double>(step.count) * step.step, end * (1 - 1e-12));
+    EXPECT_LT(static_cast<double>(step.count - 1) * step.step, end);
+  }
+}
+
+/// What is not a number passes no check, and the sentence names what made it so.
+TEST(ChooseStep, RefusesWhatIsNotANumber) {
+  const Mesh mesh = block_mesh({});
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Material& material :
+       {isotropic(nan, 0.3, 1), isotropic(1e300, 0.3, 1e-300), isotropic(1, 0.3, 0)}) {
+    const Model model(mesh, {material}, Model::Storage::full);
+    EXPECT_NE(refusal(model, {}, {std::nullopt, 0.9, 1}).find("largest frequency"), std::string::npos);
+    EXPECT_NE(refusal(model, {}, {1e-3, 0.9, 1}).find("largest frequency"), std::string::npos);
+  }
+  const Model model(mesh, {isotropic(1, 0.3, 1)}, Model::Storage::full);
+  Scene scene;
+  scene.damping.stiffness = nan;
+  EXPECT_NE(refusal(model, scene, {std::nullopt, 0.9, 1}).find("-damping_stiffness"), std::string::npos);
+  EXPECT_NE(refusal(model, {}, {nan, 0.9, 1}).find("-time_step"), std::string::npos);
 }

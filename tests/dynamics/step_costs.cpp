@@ -15,7 +15,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-long allocations = 0, collectives = 0;
+long allocations = 0, collectives = 0, gathers = 0;
 
 PetscLogDouble scatters() {
   PetscLogEvent event = 0;
@@ -44,6 +44,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 #undef MPI_Reduce
 #undef MPI_Bcast
 #undef MPI_Gatherv
+#undef MPI_Allgatherv
 #undef MPI_Barrier
 
 extern "C" {
@@ -64,31 +65,57 @@ int MPI_Gatherv(const void* in, int n, MPI_Datatype type, void* out, const int* 
   ++collectives;
   return PMPI_Gatherv(in, n, type, out, counts, starts, out_type, root, comm);
 }
+int MPI_Allgatherv(const void* in, int n, MPI_Datatype type, void* out, const int* counts, const int* starts,
+                   MPI_Datatype out_type, MPI_Comm comm) {
+  ++gathers;
+  return PMPI_Allgatherv(in, n, type, out, counts, starts, out_type, comm);
+}
 int MPI_Barrier(MPI_Comm comm) {
   ++collectives;
   return PMPI_Barrier(comm);
 }
 }
 
-TEST(StepCosts, OneHaloExchangeNoReductionNoAllocation) {
+namespace {
+
+/// Costs of 100 steps of the scene. A scene with straight sides gathers once a step for each side of which
+/// the rank holds nodes.
+void expect_costs(const Scene& scene, const std::string& side) {
   petsc(PetscLogDefaultBegin());
   Block block;
   block.nx = block.ny = 12;
   block.width = block.height = 5e-3;
   const Mesh mesh = block_mesh(block);
   const Model model(mesh, {scene_r_material()}, Model::Storage::full);
-  Scene scene = scene_r();
-  scene.beta2 = 0.6;
-  scene.damping.mass = 10;
   SlidingBody body(PETSC_COMM_WORLD, model, scene, 5e-9);
   EXPECT_GT(collectives, 0) << "the counter counts nothing";
   for (int n = 0; n < 3; ++n) body.advance(false);
 
   const long new_before = allocations, collective_before = collectives;
+  const long gathers_before = gathers;
   const PetscLogDouble scatters_before = scatters();
   constexpr int steps = 100;
   for (int n = 0; n < steps; ++n) body.advance(false);
   EXPECT_EQ(allocations - new_before, 0);
   EXPECT_EQ(collectives - collective_before, 0);
   EXPECT_EQ(scatters() - scatters_before, steps);
+  const bool holds = !side.empty() && !mesh.find_boundary(side)->nodes.empty();
+  EXPECT_EQ(gathers - gathers_before, holds ? steps : 0);
+}
+
+}  // namespace
+
+TEST(StepCosts, OneHaloExchangeNoReductionNoAllocation) {
+  Scene scene = scene_r();
+  scene.beta2 = 0.6;
+  scene.damping.mass = 10;
+  expect_costs(scene, "");
+}
+
+TEST(StepCosts, AStraightSideGathersOnce) {
+  Scene scene = scene_r();
+  scene.conditions[0].displacement[1].reset();
+  scene.conditions[0].straight = BoundaryCondition::Straight::rigid;
+  scene.conditions[0].plate_force = -7e4;
+  expect_costs(scene, "top");
 }

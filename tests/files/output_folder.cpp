@@ -88,7 +88,9 @@ TEST(OutputFolder, ReplacesTextsAsAWhole) {
     fs::remove_all(folder.path());
   });
   const std::string failure = failure_of<RunError>([&] { folder.write_text("summary.yaml", "third: 3\n"); });
-  EXPECT_NE(failure.find("summary.yaml: No such file or directory"), std::string::npos) << failure;
+  EXPECT_NE(failure.find("summary.yaml cannot be written: No such file or directory; see that"),
+            std::string::npos)
+      << failure;
 }
 
 TEST(OutputFolder, BelongsToOneRunAtATime) {
@@ -110,7 +112,7 @@ TEST(Unwritable, FoldersAreSeenBeforeTheWorkAndLeftAsTheyAre) {
   on_first_rank([&] { std::ofstream(path) << "a file"; });
   EXPECT_EQ(failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, scratch("new") + "/a/b"); }), "");
   EXPECT_FALSE(fs::exists(scratch("new")));
-  for (const std::string& impossible : {path, path + "/below", std::string("/proc/slipscale")}) {
+  for (const std::string& impossible : {path, path + "/below"}) {
     const std::string failure =
         failure_of<UserError>([&] { refuse_unwritable(PETSC_COMM_WORLD, impossible); });
     EXPECT_EQ(failure.find("-output_folder '" + impossible + "' cannot be "), 0u) << failure;

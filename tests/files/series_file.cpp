@@ -139,7 +139,7 @@ TEST(SeriesFile, AForgottenQuantityIsAFault) {
 
 TEST(SeriesFile, AFileThatCannotBeCreatedIsAFaultAndNoException) {
   SeriesFile file("/nowhere/at/all/history.h5");
-  EXPECT_NE(file.fault().find("/nowhere/at/all/history.h5 cannot be opened"), std::string::npos)
+  EXPECT_NE(file.fault().find("/nowhere/at/all/history.h5 cannot be written"), std::string::npos)
       << file.fault();
   EXPECT_NE(file.fault().find("No such file or directory"), std::string::npos) << file.fault();
   const int time = file.add("/time", {}, "s", "time");

@@ -184,7 +184,12 @@ TEST(Report, ChecksHashinAndShtrikman) {
   found.refined = {of(45.95e9, 18e9)};  // 4/3 of .05 GPa is more than the .023
   expect_part(describe(found), "ok within the error bar");
   found.refined = {of(45.99e9, 18e9)};
+  expect_part(describe(found), "outside by 5.0e-04, twice the error bar at most");
+  EXPECT_TRUE(doubts(found).empty());
+  found.refined = {of(45.995e9, 18e9)};
   expect_part(describe(found), "VIOLATED by 5.0e-04");
+  ASSERT_EQ(doubts(found).size(), 1u);
+  expect_part(effective_yaml(found, {}), "doubt: the plane bulk modulus k of 46.0000 GPa violates");
   found.solutions[0].boundary = CellBoundary::kubc;
   expect_part(describe(found), "outside by 5.0e-04, as kubc may be");
   found.phases.push_back({"third", 0, {isotropic_stiffness(1e9, 0.2), 1000, ""}});

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "whole.hpp"
 
 using namespace slipscale;
@@ -133,5 +135,31 @@ TEST(Geometry, ATorusHasNoSides) {
       const Mesh mesh = mesh_of({shape, true, Partitioner::metis, refine});
       EXPECT_EQ(outer_edge_count(mesh),
                 mesh.find_boundary("bottom")->edge_count + mesh.find_boundary("top")->edge_count);
+    }
+}
+
+/// Refinement makes nodes at the middle of each side and of each quadrilateral, and no others; both sides of
+/// a seam have the same.
+TEST(Geometry, RefinementCutsInTheMiddle) {
+  for (Shape shape : {Shape::triangles, Shape::quadrilaterals, Shape::mixed})
+    for (bool periodic : {false, true}) {
+      const Mesh coarse = whole_mesh_of({shape, periodic, Partitioner::metis, 0}),
+                 fine = whole_mesh_of({shape, periodic, Partitioner::metis, 1});
+      std::set<Vector2> expected;
+      for (int cell = 0; cell < coarse.cells.size(); ++cell) {
+        const int first = coarse.cells.first[cell], n = coarse.cells.corner_count(cell);
+        Vector2 centre{};
+        for (int k = 0; k < n; ++k) {
+          const Vector2 &a = coarse.cells.corners[first + k], &b = coarse.cells.corners[first + (k + 1) % n];
+          expected.insert(a);
+          expected.insert({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+          centre = {centre[0] + a[0] / 4, centre[1] + a[1] / 4};
+        }
+        if (n == 4) expected.insert(centre);
+      }
+      const std::set<Vector2> found(fine.cells.corners.begin(), fine.cells.corners.end());
+      ASSERT_EQ(found.size(), expected.size());
+      for (auto one = found.begin(), two = expected.begin(); one != found.end(); ++one, ++two)
+        for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR((*one)[axis], (*two)[axis], 1e-15);
     }
 }

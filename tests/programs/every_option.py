@@ -32,6 +32,7 @@ BY_SLIP_RATE = {**LENGTH, "friction_rate": "slip", "friction_rate_reference": 0.
 FRICTIONLESS = {"friction_law": "none", "friction_coefficient": None, "friction_time": None}
 COULOMB = {"friction_law": "coulomb", "friction_time": None}
 SINE = {"initial_sine_amplitude": 0.1, "initial_sine_wavelength": SIDE}
+PLATE = {"boundary_top_y": "rigid", "boundary_top_force": 1e4}
 LOADED = {"boundary_top_y": None, "boundary_top_pressure": 1e6}
 
 
@@ -147,6 +148,7 @@ def needs_memory(value):
 ALWAYS = []  # acts in every scene
 ALL_NAMED = "since every region has a material of its own"
 HELD = "where the motion along it is prescribed"
+NOT_STRAIGHT = "on a side that is not kept straight"
 
 # `OPTION` among the changes stands for the option itself; `<region>` and `<boundary>` are `block` and `top`.
 ROWS = {
@@ -195,9 +197,14 @@ ROWS = {
     "boundary_<boundary>_shear": Row([Answer({"OPTION": 1e6}, TOP_X, more, base={"boundary_top_x": None})],
                                      [Idle({"OPTION": 1e6}, HELD)]),
     "boundary_<boundary>_ramp": Row([Answer({"OPTION": 4e-6}, LOAD, less)],
-                                    [Idle({"boundary_top_y": "fixed"}, "where no displacement, pressure or shear is imposed")]),
+                                    [Idle({"boundary_top_y": "fixed"}, "where no displacement, pressure, shear or force is imposed")]),
+    # Kept straight, the top carries what presses it; a heavier plate has not come as far.
+    "boundary_<boundary>_force": Row([Answer({"OPTION": 2e4}, LOAD, more, base=PLATE)], [Idle({"OPTION": 1e4}, NOT_STRAIGHT)]),
+    "boundary_<boundary>_mass": Row([Answer({"OPTION": 1}, last("energy/loads"), less, base=PLATE)],
+                                    [Idle({"OPTION": 1}, NOT_STRAIGHT)]),
 
     "initial_velocity": Row([Answer({"OPTION": "0,-0.5"}, mean("surface/normal_force"), more)], ALWAYS),
+    "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),
     "initial_sine_amplitude": Row([Answer({"OPTION": 0.2}, M_X, becomes(-0.2), base=SINE)], ALWAYS),
     "initial_sine_wavelength": Row([Answer({"OPTION": 1.5 * SIDE}, M_X, becomes(0.1 * np.cos(2 * np.pi / 3)),
                                            base=SINE)],

@@ -27,11 +27,13 @@ class StudyCase(unittest.TestCase):
     """`study` is the folder's name below runs/; its reduced.yaml says what is run."""
 
     study = None
+    place = "in a place"  # of programs and results: a path with blanks
 
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        self.folder = Path(temporary.name) / self.place
+        self.folder.mkdir()
         self.snakefile = RUNS / self.study / "Snakefile"
         self.reduced = yaml.safe_load((RUNS / self.study / "reduced.yaml").read_text())
         self.out = self.folder / self.reduced["output"]

@@ -1,8 +1,7 @@
-"""slipscale.adapting.adapt with `slide`: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
+"""slipscale adapt: the strip S1 that squeals in slip and separation, whose relaxation time is to be found."""
 
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-RUNS = Path(__file__).parents[2] / "runs"
 PERIOD = 6.283185307179586
 TRUTH = 0.1
 DRIVE = 0.5 * 1e-4 * PERIOD * 7e-4  # μ N0 V
@@ -47,9 +45,9 @@ class Strip(unittest.TestCase):
         """The exit code and adapt.yaml."""
         output = self.folder / f"{truth}_{own}"
         done = subprocess.run(
-            [sys.executable, "-m", "slipscale.adapting.adapt", self.folder / truth, self.folder / own, "--output", output,
+            [os.environ["SLIPSCALE_COMMAND"], "adapt", self.folder / truth, self.folder / own, "--output", output,
              "--program", os.environ["SLIPSCALE_SLIDE"], "--window", "200", "400", *words],
-            env={**os.environ, "PYTHONPATH": str(RUNS)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.assertIn(done.returncode, (0, 1), done.stdout)
         return done.returncode, yaml.safe_load((output / "adapt.yaml").read_text())
 

@@ -1,6 +1,7 @@
 """What becomes of a run whose output folder fails it: a full disk, a folder in use, taken away or with a long name."""
 
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -42,51 +43,54 @@ class InBlock(InScratch):
 
 
 class FullDisk(InBlock):
-    """A limit on the size of files, on all ranks or on one, is what stands in for a full disk."""
+    """A limit on the size of files, set while the job runs (Open MPI itself would not start under it)."""
 
-    def limited(self, scene, kilobytes, ranks, only=None):
-        (self.folder / "limited").write_text(
-            "#!/bin/bash\n" + (f'[ "$OMPI_COMM_WORLD_RANK" = {only} ] && ' if only is not None else "") +
-            f'ulimit -f {kilobytes}\nexec "$@"\n')
-        (self.folder / "limited").chmod(0o755)
-        return self.launch(str(self.folder / "limited"), SLIDE, *arguments_of(scene), ranks=ranks)
+    def limited(self, scene, ranks, limited):
+        """What becomes of the job once the rank of that number may write no file of more than 2 MB."""
+        script = 'echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}; exec "$0" "$@"'
+        command = [] if ranks == 1 else [MPIEXEC, "-n", str(ranks)]
+        job = subprocess.Popen([*command, "bash", "-c", script, SLIDE, *arguments_of(scene)], cwd=self.folder,
+                               env=self.environment(), text=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE)
+        self.addCleanup(self.end, job)
+        self.wait_for(self.folder / "out" / "history.h5")
+        process = int((self.folder / f"pid.{limited}").read_text())
+        resource.prlimit(process, resource.RLIMIT_FSIZE, (2000000, resource.RLIM_INFINITY))
+        return job
 
-    def assert_stopped(self, outcome, file, ranks):
-        self.assertEqual(outcome.codes, [1] * ranks, outcome.err)
-        sentence = rf"slide: out/{file} cannot be written: File too large; see that -output_folder is writable.*\n"
-        # mpiexec adds its own words.
-        self.assertRegex(outcome.err, sentence)
-        for noise in ("PETSC ERROR", "what():", "Segmentation", "signal", "MPI_ABORT"):
-            self.assertNotIn(noise, outcome.out + outcome.err)
+    def assert_stopped(self, job, file):
+        _, err = job.communicate(timeout=60)
+        self.assertEqual(job.returncode, 1, err)
+        self.assertRegex(err, rf"slide: out/{file} cannot be written: File too large; see that -output_folder is writable")
+        for noise in ("PETSC ERROR", "what():", "Segmentation", "exited on signal", "MPI_ABORT"):
+            self.assertNotIn(noise, err)
 
     def test_frames(self):
+        block(self.folder / "fine.msh", divisions=32)
+        scene = {**FOR_HOURS, "mesh_file": "fine.msh", "history_every": 1000, "fields_every": 20}
         for ranks in RANKS:
-            outcome = self.limited({**SCENE, "fields_every": 2}, 200, ranks)
-            self.assert_stopped(outcome, "fields.h5", ranks)
+            self.assert_stopped(self.limited(scene, ranks, 0), "fields.h5")
             frames = len(datasets(self.folder / "out" / "fields.h5")["time"])
-            self.assertGreater(frames, 3)
             shown = (self.folder / "out" / "fields.xdmf").read_text()
             self.assertEqual(shown.count("<Time "), frames)
             self.assertFalse((self.folder / "out" / "summary.yaml").exists())
+            shutil.rmtree(self.folder / "out")
 
     def test_rows(self):
         for ranks in RANKS:
-            outcome = self.limited({**SCENE, "time_end": 80e-6, "history_every": 1, "contact_every": 1}, 200, ranks)
-            self.assert_stopped(outcome, "(history|contact).h5", ranks)
+            job = self.limited({**FOR_HOURS, "history_every": 1000, "contact_every": 2}, ranks, 0)
+            self.assert_stopped(job, "(history|contact).h5")
             contact = datasets(self.folder / "out" / "contact.h5")
             rows = len(contact["time"])
             self.assertTrue(np.all(np.diff(contact["time"]) > 0))
             self.assertEqual({len(contact[name]) for name in ("u", "gap", "status", "strength")}, {rows})
-
-    def test_from_the_start(self):
-        for ranks in RANKS:
-            outcome = self.limited({**SCENE, "fields_every": 50}, 2, ranks)
-            self.assert_stopped(outcome, "fields.h5", ranks)
+            shutil.rmtree(self.folder / "out")
 
     def test_of_another_rank_than_the_first(self):
         """It once left both ranks waiting; only the first writes."""
-        outcome = self.limited({**SCENE, "fields_every": 2}, 1, 2, only=1)
-        self.assertEqual((outcome.codes, outcome.err), ([0, 0], ""))
+        job = self.limited({**FOR_HOURS, "time_end": 60e-6, "fields_every": 10}, 2, 1)
+        _, err = job.communicate(timeout=60)
+        self.assertEqual((job.returncode, err), (0, ""))
 
 
 class SmallDisk(InBlock):
@@ -112,7 +116,7 @@ class SmallDisk(InBlock):
         return disk
 
     def check(self, kind):
-        disk = self.mounted(kind, 900)
+        disk = self.mounted(kind, 3000)
         for ranks in RANKS:
             for scene in ({"fields_every": 1}, {"history_every": 1, "contact_every": 1, "time_end": 80e-6}):
                 with self.subTest(kind=kind, ranks=ranks, **scene):
@@ -126,7 +130,8 @@ class SmallDisk(InBlock):
                     np.testing.assert_array_equal(history["step"], history["step"][1] * np.arange(len(history["step"])))
                     if "fields_every" in scene:
                         frames = len(datasets(disk / "out" / "fields.h5")["time"])
-                        self.assertEqual((disk / "out" / "fields.xdmf").read_text().count("<Time "), frames)
+                        shown = (disk / "out" / "fields.xdmf").read_text().count("<Time ")
+                        self.assertIn(shown, (frames - 1, frames))  # none that is not there
                     shutil.rmtree(disk / "out")
 
     def test_that_reserves(self):
@@ -163,7 +168,7 @@ class InUse(InBlock):
             shutil.rmtree(self.folder / "out", ignore_errors=True)
             _, err = job.communicate(timeout=60)
             self.assertNotEqual(job.returncode, 0)
-            self.assertRegex(err, r"slide: out/(history|contact).h5 cannot be written: No such file or directory; ")
+            self.assertRegex(err, r"slide: out/(history|contact).h5 cannot be written: .*No such file or directory; ")
             if ranks == 1:
                 self.assertEqual(job.returncode, 1)
 
@@ -240,9 +245,10 @@ class Contents(InBlock):
         points = np.round(rng.uniform(0, 5e-3, (3000, 2)), 7)
         (self.folder / "points.yaml").write_text(f"history_points: [{','.join(f'{x:.7f}' for x in points.ravel())}]\n")
         scene = {"options_file_yaml": "points.yaml", **SCENE, "history_points": None}
-        begun = time.monotonic()
-        outcome = self.run_scene(scene, ranks=2)
-        self.assertLess(time.monotonic() - begun, 30)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        outcome = self.run_scene(scene)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, 20)  # s of work
         number, unit = re.search(r"output ([\d.]+) (kB|MB|GB)", outcome.out).groups()
         size = sum(file.stat().st_size for file in (self.folder / "out").iterdir() if file.suffix == ".h5")
         self.assertAlmostEqual(float(number) * {"kB": 1e3, "MB": 1e6, "GB": 1e9}[unit] / size, 1, delta=0.25)
@@ -252,8 +258,8 @@ class Cadences(InBlock):
     def test_in_seconds(self):
         outcome = self.run_scene({**SCENE, "history_every": None, "history_interval": 1.01e-7, "contact_interval": 4e-7,
                                   "fields_interval": 1e-6})
-        self.assertIn("a row of history.h5 every 5 steps (100 ns), of contact.h5 every 20 steps (400 ns), a frame of "
-                      "fields.h5 every 50 steps (1.00 us)", outcome.out)
+        self.assertIn("a row of history.h5 every 5 steps (100.0 ns), of contact.h5 every 20 steps (400.0 ns), a frame "
+                      "of fields.h5 every 50 steps (1.000 µs)", outcome.out)
         for file, step in (("history.h5", 1e-7), ("contact.h5", 4e-7), ("fields.h5", 1e-6)):
             times = datasets(self.folder / "out" / file)["time"]
             np.testing.assert_allclose(times, step * np.arange(len(times)), rtol=1e-12, atol=1e-20)
@@ -285,8 +291,8 @@ class Cadences(InBlock):
         self.assertIn(summary["contact"]["regime"], ("slip", "stick-slip", "slip-separated", "stick-slip-separated"))
 
     def test_rows_too_sparse_are_noticed(self):
-        """A free block that rings along x, once a microsecond and more often than a row is written."""
-        scene = {**SCENE, "time_end": 100e-6, "history_points": None}
+        """Rows further apart than half a period of the strongest vibration."""
+        scene = {**SCENE, "time_end": 1e-3, "history_points": None, "contact_every": 1000}
         dense = self.run_scene(scene, history_every=1).out
         self.assertNotIn("alias", dense)
         summary = yaml.safe_load((self.folder / "out" / "summary.yaml").read_text())

@@ -29,6 +29,7 @@ MESHES = {
     "composite.msh": {"regions": ("matrix", "inclusion")},
     "torus.msh": {"regions": ("matrix", "inclusion"), "periodic": True},
     "old_torus.msh": {"regions": ("matrix", "inclusion"), "periodic": True, "form": "msh2"},
+    "old.msh": {"regions": ("matrix", "inclusion"), "form": "msh2"},
     "solid.msh": {"depth": 1e-3, "divisions": 2},
     "nameless.msh": {"names": False},
     "narrow.msh": {"regions": ("matrix", "inclusion"), "periodic": True, "divisions": 2},
@@ -164,8 +165,14 @@ MISTAKES = {
     "mesh truncated": Mistake(["'truncated.msh'"], {"mesh_file": "truncated.msh"}),
     "mesh solid": Mistake(["'solid.msh' has 3-dimensional cells", "plane"], {"mesh_file": "solid.msh"}),
     "mesh without names": Mistake(["'nameless.msh' names no region", "Physical Surface"], {"mesh_file": "nameless.msh"}),
-    "mesh periodic in MSH 2": Mistake(["'old_torus.msh'", "MSH 2", "msh41"], {"mesh_file": "old_torus.msh"}),
+    "mesh periodic in MSH 2": Mistake(["'old_torus.msh'", "MSH 2", "lose its periodicity", "gmsh -2 -format msh41"],
+                                      {"mesh_file": "old_torus.msh"}),
     "mesh too narrow": Mistake(["'narrow.msh'", "fewer than three cells"], {"mesh_file": "narrow.msh"}),
+    "mesh in MSH 2": Mistake(["'old.msh' is written as MSH 2.2", "convert it with gmsh -0 old.msh -format msh41 -o "],
+                             {"mesh_file": "old.msh"}),
+    "mesh of two bodies": Mistake(["'unglued.msh'", "coincide but are not one", "Coherence"],
+                                  {"mesh_file": "unglued.msh"}),
+    "refined beyond measure": Mistake(["-mesh_refine 31", "refine less"], {"mesh_refine": 31}),
     "partitioner nonsense": value("mesh_partitioner", "scissors", "metis, simple or ptscotch"),
     "storage nonsense": value("stiffness_storage", "half", "double or single"),
     # Spelling of the command line and of the file
@@ -183,6 +190,31 @@ MISTAKES = {
 OF_A_RUN = ("run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf")
 
 
+def unglued(mesh):
+    """The text of a mesh whose two layers do not share the nodes between them: the upper ones get their own."""
+    lines = mesh.split("\n")
+    begin, end = lines.index("$Nodes") + 1, lines.index("$EndNodes")
+    blocks, count, least, largest = map(int, lines[begin].split())
+    middle, k = {}, begin + 1
+    while k < end:
+        size = int(lines[k].split()[3])
+        for tag, x in zip(lines[k + 1:k + 1 + size], lines[k + 1 + size:k + 1 + 2 * size]):
+            if abs(float(x.split()[1]) / 2.5e-3 - 1) < 1e-6:
+                middle[tag] = (str(largest + len(middle) + 1), x)
+        k += 1 + 2 * size
+    more = [f"2 2 0 {len(middle)}", *(tag for tag, _ in middle.values()), *(x for _, x in middle.values())]
+    lines[begin] = f"{blocks + 1} {count + len(middle)} {least} {largest + len(middle)}"
+    k = lines.index("$Elements") + 2
+    while not lines[k].startswith("$"):
+        dimension, entity, _, size = map(int, lines[k].split())
+        for at in range(k + 1, k + 1 + size):
+            if (dimension, entity) in ((2, 2), (1, 201), (1, 301)):  # surface and sides of the upper layer
+                tag, *nodes = lines[at].split()
+                lines[at] = " ".join([tag, *(middle.get(node, (node,))[0] for node in nodes)])
+        k += 1 + size
+    return "\n".join(lines[:end] + more + lines[end:])
+
+
 class Refusals(InScratch):
     def setUp(self):
         super().setUp()
@@ -191,6 +223,7 @@ class Refusals(InScratch):
         for name, choice in MESHES.items():
             block(self.meshes / name, **choice)
         whole = (self.meshes / "composite.msh").read_bytes()
+        (self.meshes / "unglued.msh").write_text(unglued(whole.decode()))
         (self.meshes / "truncated.msh").write_bytes(whole[:len(whole) // 2])
         (self.meshes / "prose.msh").write_text("A mesh has nodes and cells.\n")
 

@@ -1,6 +1,7 @@
 """`relocalize` beside the heterogeneous run: what comparison.yaml and the files hold, against numpy; on any number of
 ranks, as XDMF, as a picture."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -218,11 +219,10 @@ class Compared(Relocalising):
                              statistics.cell_data.keys())
 
     def test_picture(self):
-        runs = Path(__file__).parents[2] / "runs"
         for choice in ([], ["--statistic", "mean", "--component", "xx"]):
-            done = subprocess.run([sys.executable, "-B", "-m", "slipscale.pictures.relocalized_picture", "heterogeneous", "out",
+            done = subprocess.run([os.environ["SLIPSCALE_COMMAND"], "relocalized-picture", "heterogeneous", "out",
                                    "homogeneous", "picture.png", *choice], cwd=self.folder, capture_output=True,
-                                  text=True, env=self.environment(PYTHONPATH=str(runs)), timeout=60)
+                                  text=True, env=self.environment(), timeout=120)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
             self.assertEqual((self.folder / "picture.png").read_bytes()[:4], b"\x89PNG")
             (self.folder / "picture.png").unlink()

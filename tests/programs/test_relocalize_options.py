@@ -99,6 +99,7 @@ class EveryOption(Relocalising):
         shutil.copytree(self.folder / "cell", self.folder / "stiffer")
         with h5py.File(self.folder / "stiffer" / "localization.h5", "r+") as file:
             file["region/stiffness"][...] *= 3
+            file["effective/stiffness"][...] *= 3
         self.runs = {}
 
     def result(self, run, ranks):

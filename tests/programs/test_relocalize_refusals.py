@@ -68,7 +68,19 @@ MISTAKES = {
     "tensors of too few cells": tensors("few", DAMAGED, "/cell/localisation", "shape"),
     "tensors of another block": tensors("wider", "whole block", "homogenise that block"),
     "tensors of the block, moved": tensors("cell", "another -relocalize_origin", relocalize_origin="1e-3,0"),
-    "a cell with a hole": tensors("hole", "does not fill its rectangle", "without holes"),
+    "a cell that lacks some of its mesh": tensors("hole", DAMAGED, "the mean of C : A is not /effective/stiffness"),
+    "tensors that are not numbers": tensors("nan", DAMAGED, "/cell/localisation", "not a finite number"),
+    "tensors of nothing": tensors("zero", DAMAGED, "the mean of /cell/localisation is not the identity"),
+    "tensors of a phase that pulls": tensors("negative", DAMAGED, "/region/stiffness", "not positive definite"),
+    "tensors of a phase without energy": tensors("unsymmetric", DAMAGED, "/region/stiffness", "not symmetric"),
+    "tensors of a point": tensors("point", DAMAGED, "/mesh/coordinates", "on a line"),
+    "tensors of no place": tensors("nowhere", DAMAGED, "/mesh/coordinates", "not a finite number"),
+    "tensors of more rows than there are": tensors("declared", DAMAGED, "declares more numbers"),
+    "tensors of many areas": tensors("list", DAMAGED, "cell_area", "is not one number"),
+    "tensors of a condition without words": tensors("empty", DAMAGED, "boundary"),
+    "tensors of a cell in another unit": tensors("tiny", "5000 by 5000 copies", "in metres"),
+    "statistics whose variances are negative": run("impossible", "statistics.h5", "variance below zero"),
+    "statistics of many times": run("times", "statistics.h5", DAMAGED, "is not one number"),
     # The heterogeneous run
     "reference that is not there": reference("absent", NO_FILE, "'absent'"),
     "reference without frames": reference("bare", NO_FILE, "bare/fields.h5"),
@@ -164,6 +176,7 @@ class Refusals(Mistaken, Relocalising):
         self.spoil_runs()
         self.spoil_tensors()
         self.spoil_references()
+        self.spoil_numbers()
 
     def variant(self, name, source, file):
         """A folder with a file of another, and its path."""
@@ -201,6 +214,44 @@ class Refusals(Mistaken, Relocalising):
         for name, rows in (("mesh/cells", found["mesh/cells"]), ("mesh/region", found["cell/region"]),
                            ("cell/localisation", found["cell/localisation"])):
             replace(hole, name, rows[kept])
+
+    def spoil_numbers(self):
+        """Whole files with contents that cannot be."""
+        def spoiled(name, source="cell"):
+            return h5py.File(self.variant(name, source, "localization.h5"), "r+")
+        with spoiled("nan") as file:
+            file["cell/localisation"][3, 1, 1] = np.nan
+        with spoiled("zero") as file:
+            file["cell/localisation"][...] = 0
+        with spoiled("negative") as file:
+            file["region/stiffness"][0] *= -1
+        with spoiled("unsymmetric") as file:
+            file["region/stiffness"][0, 0, 1] *= 2
+        with spoiled("point") as file:
+            file["mesh/coordinates"][...] = 1e-3
+        with spoiled("nowhere") as file:
+            file["mesh/coordinates"][5] = np.nan
+        with spoiled("declared") as file:
+            kept = dict(file["cell/localisation"].attrs)
+            del file["cell/localisation"]
+            file.create_dataset("cell/localisation", (10**12, 3, 3), "f8", chunks=(64, 3, 3)).attrs.update(kept)
+        with spoiled("list") as file:
+            del file["effective/stiffness"].attrs["cell_area"]
+            file["effective/stiffness"].attrs["cell_area"] = np.zeros(7000)
+        with spoiled("empty") as file:
+            del file["effective/stiffness"].attrs["boundary"]
+            file["effective/stiffness"].attrs["boundary"] = h5py.Empty("S8")
+        with spoiled("tiny", "torus") as file:
+            file["mesh/coordinates"][...] *= 1e-3
+            file["effective/stiffness"].attrs["cell_area"] *= 1e-6
+        for name in ("impossible", "times"):
+            self.variant(name, "homogeneous", "fields.h5")
+            with h5py.File(self.variant(name, "homogeneous", "statistics.h5"), "r+") as file:
+                if name == "times":
+                    del file["statistics"].attrs["from"]
+                    file["statistics"].attrs["from"] = np.zeros(7000)
+                else:
+                    file["statistics/strain/covariance"][2, :3] *= -1
 
     def spoil_references(self):
         self.without("dull", "heterogeneous", "stress")

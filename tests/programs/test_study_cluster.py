@@ -58,6 +58,7 @@ SWEEP = {"friction_coefficient": [0.1, 0.2, -0.5], "surface_speed": 2, "size": 1
 
 class Cluster(studies.StudyCase):
     study = "sweep"
+    place = "cluster"
 
     def setUp(self):
         super().setUp()

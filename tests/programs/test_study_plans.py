@@ -36,6 +36,22 @@ class Plan(studies.StudyCase):
                 self.assertGreater(full["total"], 2 * reduced["total"])
         self.assertFalse((self.folder / "out").exists())
 
+    def test_an_own_composite_as_the_readme_has_it(self):
+        """Its six runs and no others are planned, and it is said before anything runs."""
+        lines = (studies.RUNS / "equivalence" / "README.md").read_text().split("## Your own composite")[1].splitlines()
+        example = "\n".join(line[4:] for line in lines if line.startswith("    ") and "snakemake" not in line)
+        (self.folder / "mine.yaml").write_text(example)
+        done = subprocess.run(["snakemake", "-c2", "-n", "--snakefile", studies.RUNS / "equivalence" / "Snakefile",
+                               "--configfile", self.folder / "mine.yaml", "--config",
+                               f"programs={self.folder / 'programs'}"],
+                              cwd=self.folder, capture_output=True, text=True, env=self.environment(),
+                              timeout=studies.SECONDS)
+        said = done.stdout + done.stderr
+        self.assertEqual(done.returncode, 0, said)
+        self.assertIn("6 runs: own 6; they and the table are written to out/mine", said)
+        self.assertRegex(said, r"(?m)^slide +6 ")
+        self.assertFalse((self.folder / "out").exists())
+
 
 if __name__ == "__main__":
     studies.main()

@@ -28,8 +28,8 @@ class Sweep(studies.StudyCase):
                 self.assertAlmostEqual(friction, mu, delta=2e-3 * mu + 1e-9)
             self.assertAlmostEqual(sum(float(row[state]) for state in ("stick", "slip", "open")), 1, delta=1e-9)
             self.assertLess(float(row["energy_residual"]), 1e-9)
-            # A window that study.yaml leaves open is the last three eighths.
-            self.assertAlmostEqual(float(row["window_begin"]) / 120e-6, 0.625, delta=0.01)
+            # A window that study.yaml leaves open is the second half.
+            self.assertAlmostEqual(float(row["window_begin"]) / 120e-6, 0.5, delta=0.01)
         self.assertGreater(float(rows[-1]["amplitude"]), 100 * float(rows[2]["amplitude"]))  # it squeals at 0.5 only
         self.assertGreater((self.out / "picture" / "picture.png").stat().st_size, 20000)
         self.assertIn("6 runs, 0 failed", (self.out / "report.md").read_text())
@@ -125,9 +125,10 @@ history: {every: 2}
 output: {folder: nowhere}
 """)
         (self.folder / "block.yaml").write_text("block: {width: 5e-3, height: 5e-3}\nshape: none\nsize: 1e-3\n")
-        out = self.folder / "out"
+        out = self.folder / "my own" / "sweep"
         words = ("-options_file_yaml", "scene.yaml", "--recipe", "block.yaml", "-friction_coefficient", "0.1:0.1:0.3",
-                 "-time_beta2", "0.6", "--output", out, "--", "-c2", "--directory", self.folder)
+                 "-time_beta2", "0.6", "--output", "my own/sweep", "--", "-c2")
+        before = {path.name for path in self.folder.iterdir()}
         done = self.sweep(*words)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("3 runs", done.stdout)
@@ -138,14 +139,25 @@ output: {folder: nowhere}
         run = next((out / "run").glob("*/run.yaml")).read_text()
         self.assertIn("beta2: 0.6", run)
 
+        # Nothing beside it, neither here nor in the folder of the study.
+        home = {".cache", ".config", ".fltk"}  # of the programs that snakemake and morphology are made of
+        self.assertEqual({path.name for path in self.folder.iterdir()} - before - home, {"my own"})
+        self.assertEqual([path.name for path in (self.folder / "my own").iterdir()], ["sweep"])
+        self.assertFalse((studies.RUNS / "sweep" / ".snakemake").exists() or (studies.RUNS / "sweep" / "out").exists())
         again = self.sweep(*words)
         self.assertIn("Nothing to be done", again.stdout + again.stderr)
 
     def test_mistakes(self):
+        (self.folder / "twice.yaml").write_text("boundary: {top: {y: -1e-6}}\nboundary: {right: {x: fixed}}\n")
+        (self.folder / "joined.yaml").write_text("boundary: {top: {x: fixed}}\nboundary_top_x: free\n")
+        (self.folder / "octal.yaml").write_text("surface: {speed: 010}\n")
         for words, sentence in ((("-friction_coeficient", "0.1:0.1:0.3"), "is -friction_coefficient meant?"),
                                 (("-friction_coefficient",), "-friction_coefficient needs a value."),
                                 (("-options_file_yaml", "no.yaml"), "no.yaml cannot be read"),
                                 (("-surface_speed", "1:1"), "1:1 is no range"),
+                                (("-options_file_yaml", "twice.yaml"), "twice.yaml gives 'boundary' twice"),
+                                (("joined.yaml",), "boundary_top_x is given twice"),
+                                (("octal.yaml",), "octal.yaml has '010' near line 1"),
                                 (("-mesh_file", "no.msh", "-surface_speed", "1,2"), "There is no no.msh")):
             done = self.sweep(*words)
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)

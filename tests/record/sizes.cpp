@@ -58,7 +58,8 @@ TEST(Estimate, OfFieldsIsNearTheirSize) {
   source.file = folder.path("block.msh");
   const Mesh mesh = read_mesh(PETSC_COMM_WORLD, source);
   const std::vector<double> u(2 * 31 * 31), stress(3 * 1800);
-  FieldsFile file(PETSC_COMM_WORLD, mesh, folder.path(), {});
+  FieldsFile file(PETSC_COMM_WORLD, MeshImage(PETSC_COMM_WORLD, mesh), folder.path(), {}, "fields",
+                  std::vector<double>(1800, 0.25));
   for (int frame = 0; frame < 10; ++frame) file.write(frame, u.data(), u.data(), stress.data());
   file.close();
   const auto size = static_cast<double>(std::filesystem::file_size(folder.path("fields.h5")));

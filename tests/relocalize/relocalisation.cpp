@@ -148,13 +148,14 @@ TEST(Relocalisation, OfStatisticsIsTheStatisticsOfFrames) {
   }
   const Moments homogeneous = moments(frames), strain = moments(strains), stress = moments(stresses);
   Tensors mean(relocalize.places()), mean_strain(mean), mean_stress(mean);
-  Covariances covariance(relocalize.places()), strain_covariance(covariance), stress_covariance(covariance);
+  Covariances strain_covariance(relocalize.places()), stress_covariance(strain_covariance);
+  std::vector<CovarianceRoot> roots(relocalize.places());
   relocalize.macroscopic(homogeneous.mean, mean);
-  relocalize.macroscopic(homogeneous.covariance, covariance);
+  relocalize.macroscopic_roots(homogeneous.covariance, roots);
   relocalize.strain(mean, mean_strain);
   relocalize.stress(mean, mean_stress);
-  relocalize.strain_covariance(covariance, strain_covariance);
-  relocalize.stress_covariance(covariance, stress_covariance);
+  relocalize.strain_covariance(roots, strain_covariance);
+  relocalize.stress_covariance(roots, stress_covariance);
   const double e = 1e-4, s = 1e-4 * 100e9;  // sizes
   for (std::size_t k = 0; k < mean.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -208,6 +209,57 @@ TEST(RankShare, IsEvenToOne) {
       }
       EXPECT_EQ(next, total);
     }
+}
+
+/// A covariance that falls to zero at a side, where patches weigh cells negatively: recovered as it stands,
+/// its variances come out negative there; by roots they cannot, nor its determinant.
+TEST(Relocalisation, LeavesNoVarianceNegative) {
+  const PlaneGrid macro = macro_block();
+  const LocalisationTensors tensors = made_up(false);
+  const Targets targets = tiles(tensors, macro);
+  Relocalisation relocalize(tensors, macro, Recovery::nodal, targets.sites);
+  Covariances cells;
+  std::mt19937 numbers(5);
+  std::normal_distribution<double> any;
+  for (int cell = 0; cell < macro.cells(); ++cell) {
+    const double size = std::pow(10.0, -8 * centre(macro, cell)[1]);
+    Eigen::Matrix3d factor;
+    for (int i = 0; i < 9; ++i) factor.data()[i] = size * any(numbers);
+    const Eigen::Matrix3d c = factor * factor.transpose();
+    cells.push_back({c(0, 0), c(1, 1), c(2, 2), c(1, 2), c(0, 2), c(0, 1)});
+  }
+  std::vector<CovarianceRoot> roots(relocalize.places());
+  Covariances strain(relocalize.places()), stress(relocalize.places());
+  relocalize.macroscopic_roots(cells, roots);
+  relocalize.strain_covariance(roots, strain);
+  relocalize.stress_covariance(roots, stress);
+  for (const Covariances* each : {&strain, &stress})
+    for (const PlaneCovariance& c : *each) {
+      for (int i = 0; i < 3; ++i) EXPECT_GE(c[i], 0);
+      EXPECT_TRUE(is_covariance(c));
+    }
+  EXPECT_FALSE(is_covariance({1, 1, 1, 0, 0, 1.1}));
+}
+
+/// A covariance that is the same everywhere, or of deviations that are linear and move together, is recovered
+/// as it is.
+TEST(Relocalisation, RecoversDeviationsThatAreLinear) {
+  const PlaneGrid macro = macro_block();
+  LocalisationTensors tensors = made_up(true);
+  const Targets targets = tiles(tensors, macro);
+  Relocalisation relocalize(tensors, macro, Recovery::nodal, targets.sites);
+  const auto deviation_at = [](const Vector2& x) { return 1 + 0.7 * x[0] + 0.4 * x[1]; };
+  Covariances cells;
+  for (int cell = 0; cell < macro.cells(); ++cell) {
+    const double d = deviation_at(centre(macro, cell));
+    cells.push_back({4 * d * d, 2 * d * d, d * d, 0.5 * d * d, 0.3 * d * d, d * d});
+  }
+  std::vector<CovarianceRoot> roots(relocalize.places());
+  Covariances strain(relocalize.places());
+  relocalize.macroscopic_roots(cells, roots);
+  relocalize.strain_covariance(roots, strain);
+  for (int target = 0; target < targets.grid.cells(); ++target)
+    EXPECT_NEAR(deviation(strain[target])[0], 2 * deviation_at(centre(targets.grid, target)), 1e-12);
 }
 
 TEST(Deviation, TakesRoundingForZero) {

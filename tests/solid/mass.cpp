@@ -1,3 +1,4 @@
+#include "slipscale/solid/eigenvalue_bound.hpp"
 #include "slipscale/solid/mass.hpp"
 
 #include <gtest/gtest.h>

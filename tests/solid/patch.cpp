@@ -7,7 +7,7 @@
 #include "assembled.hpp"
 #include "bodies.hpp"
 #include "slipscale/dynamics/model.hpp"
-#include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/stress.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;

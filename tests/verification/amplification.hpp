@@ -16,11 +16,12 @@ struct Oscillator {
   double beta2;
   Damping damping;
 
-  /// The scheme line by line, with v and a kept: u_1, …, u_count from u_0 = 0 and v_0.
+  /// The scheme line by line, with v and a kept: u_1, …, u_count from u_0 = 0 and v_0; damping lags by one
+  /// step, so it starts from u_{−1} = −Δt v_0.
   std::vector<double> displacements(double v, int count) const {
     const double k = omega * omega;
     std::vector<double> all;
-    double u = 0, old_u = 0, a = 0;
+    double u = 0, old_u = -time_step * v, a = 0;
     for (int n = 0; n < count; ++n) {
       const double w = n == 0 ? v : v + time_step * (1 - beta2) * a;
       a = -k * u - damping.stiffness / time_step * k * (u - old_u) - damping.mass * w;

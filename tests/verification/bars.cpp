@@ -52,7 +52,7 @@ Impact impact(const Bar& bar) {
     body.advance(true);
     double sum[2] = {0, 0};
     for (const Vector2& force : body.contact().force) sum[0] += force[1];
-    for (int i = 0; i < mesh.nodes.owned; ++i) sum[1] += model.mass[i] * body.velocity()[i][1];
+    for (int i = 0; i < mesh.nodes.owned; ++i) sum[1] += model.mass[i] * body.velocity_n()[i][1];
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
     const double p = sum[0] / block.width;
     if (p > 0 && found.impulse == 0) found.first = body.time();

@@ -53,10 +53,10 @@ Bits bits(const Simulation& simulation) {
   };
   const SlidingBody& body = simulation.body;
   for (int i = 0; i < simulation.mesh.nodes.owned; ++i) {
-    put(i, 0, body.displacement()[i]);
-    put(i, 1, body.velocity()[i]);
-    put(i, 2, body.acceleration()[i]);
-    put(i, 3, body.internal_force()[i]);
+    put(i, 0, body.next_displacement()[i]);
+    put(i, 1, body.velocity_n()[i]);
+    put(i, 2, body.acceleration_n()[i]);
+    put(i, 3, body.internal_force_n()[i]);
   }
   const ContactNodes& contact = body.contact();
   for (int k = 0; k < contact.size(); ++k) {

@@ -24,7 +24,7 @@ std::vector<Vector2> end_state(const Scene& scene) {
   const Model model(mesh, {scene_r_material()}, Model::Storage::full);
   SlidingBody body(PETSC_COMM_WORLD, model, scene, dt);
   for (long n = 0; n < std::lround(end / dt); ++n) body.advance(false);
-  return whole_field(PETSC_COMM_WORLD, mesh, body.displacement());
+  return whole_field(PETSC_COMM_WORLD, mesh, body.next_displacement());
 }
 
 /// Largest difference, m.

@@ -77,7 +77,7 @@ double exact_largest_frequency(const Model& model) {
 double largest_speed(const SlidingBody& body) {
   double most = 0;
   for (int i = 0; i < body.model().mesh.nodes.owned; ++i)
-    for (const double w : body.predictor()[i]) most = std::max(most, std::abs(w));
+    for (const double w : body.next_predictor()[i]) most = std::max(most, std::abs(w));
   MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
   return most;
 }

@@ -24,14 +24,14 @@ void look_at_contact(const SlidingBody& body, std::vector<double>& peak, Watched
   for (int k = 0; k < contact.size(); ++k) {
     const double p = contact.pressure[k], traction = std::abs(contact.traction[k]);
     peak[k] = p > 0 && remembers ? std::max(peak[k], p) : p;
-    const double gap = contact.clearance[k] + body.displacement()[contact.node[k]][1];
+    const double gap = contact.clearance[k] + body.next_displacement()[contact.node[k]][1];
     seen.penetration = std::max(seen.penetration, -gap);
     seen.suction = std::max(seen.suction, -p);
     seen.traction = std::max(seen.traction, traction);
     const double strength = friction.coefficient * peak[k];
     if (traction > strength) seen.excess = std::max(seen.excess, strength > 0 ? traction / strength - 1 : 1);
     const int slot = contact.slot[k];
-    const double slip = body.surface_travel() - (body.displacement()[contact.node[k]][0] -
+    const double slip = body.surface_travel() - (body.next_displacement()[contact.node[k]][0] -
                                                  body.boundary_nodes().displacement[slot][0]);
     if (contact.traction[k] * slip < 0) seen.against = std::max(seen.against, std::abs(slip));
     seen.drag += contact.force[k][0];
@@ -51,7 +51,7 @@ void look_at_energy(const SlidingBody& body, Watched& seen) {
 double largest_displacement(const SlidingBody& body) {
   double largest = 0;
   for (int i = 0; i < body.model().mesh.nodes.owned; ++i)
-    for (const double u : body.displacement()[i]) largest = std::max(largest, std::abs(u));
+    for (const double u : body.next_displacement()[i]) largest = std::max(largest, std::abs(u));
   return largest;
 }
 

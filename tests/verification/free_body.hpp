@@ -47,7 +47,7 @@ class FreeBody {
     u_.begin_update();
   }
 
-  const Vector2* displacement() const { return u_.data(); }  ///< u_{n+1}, owned nodes, m
+  const Vector2* next_displacement() const { return u_.data(); }  ///< u_{n+1}, owned nodes, m
 
   /// Σ m u·e exp(−ik·x) over the nodes that `counts(x)`: the phase of what moves along `direction`.
   template <class Counts>

@@ -52,7 +52,7 @@ Ended run(const FrictionChoice& friction, double speed) {
     simulation.body.advance(false);
     ended.statuses.add(simulation.body.contact());
   }
-  ended.displacement = whole_field(PETSC_COMM_WORLD, simulation.mesh, simulation.body.displacement());
+  ended.displacement = whole_field(PETSC_COMM_WORLD, simulation.mesh, simulation.body.next_displacement());
   ended.statuses = ended.statuses.over_ranks(PETSC_COMM_WORLD);
   return ended;
 }
@@ -95,7 +95,7 @@ class Dissipation {
     const ContactNodes& contact = body_.contact();
     for (int k = 0; k < contact.size(); ++k) {
       const double before = body_.boundary_nodes().displacement[contact.slot[k]][0],
-                   slip = body_.surface_travel() - (body_.displacement()[contact.node[k]][0] - before);
+                   slip = body_.surface_travel() - (body_.next_displacement()[contact.node[k]][0] - before);
       smallest = std::min(smallest, contact.traction[k] * slip / (mu * nominal_pressure * slow * step));
       largest_displacement = std::max(largest_displacement, std::abs(before));
       largest_traction = std::max(largest_traction, std::abs(contact.traction[k]));

@@ -31,7 +31,7 @@ int central_contact_node(const SlidingBody& body) {
 double velocity_of(const SlidingBody& body, int central) {
   if (central < 0) return 0;
   const ContactNodes& contact = body.contact();
-  return (body.displacement()[contact.node[central]][0] -
+  return (body.next_displacement()[contact.node[central]][0] -
           body.boundary_nodes().displacement[contact.slot[central]][0]) /
          body.time_step();
 }

@@ -63,7 +63,7 @@ Landing landing(double beta2) {
     landed_steps += landed;
     for (std::size_t k = 0; k < count; ++k) {
       impulse[k] += contact.force[k][1] * time_step / (contact.mass[k] * speed);
-      const double w = body.predictor()[contact.node[k]][1];
+      const double w = body.next_predictor()[contact.node[k]][1];
       if (landed_steps == 3) ratio[k] = w / velocity[k];  // the first step closes the gap, the second stops
       velocity[k] = w;
       found.rebound = std::max(found.rebound, w / speed);

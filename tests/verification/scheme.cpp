@@ -115,7 +115,7 @@ Eigen::MatrixXd modal_history(const SmallBody& small, const Choice& choice, doub
   Eigen::MatrixXd history(small.omega.size(), count);
   for (int n = 0; n < count; ++n) {
     body.advance(false);
-    history.col(n) = small.in_modes(body.displacement());
+    history.col(n) = small.in_modes(body.next_displacement());
   }
   return history;
 }
@@ -233,7 +233,7 @@ TEST(Scheme, StaysBoundedBelowTheLimit) {
       body.advance(false);
       for (int i = 0; i < small.mesh.nodes.owned; ++i)
         for (int axis = 0; axis < 2; ++axis)
-          largest[i][axis] = std::max(largest[i][axis], std::abs(body.displacement()[i][axis]));
+          largest[i][axis] = std::max(largest[i][axis], std::abs(body.next_displacement()[i][axis]));
     }
     const auto whole = whole_field(PETSC_COMM_WORLD, small.mesh, largest.data());
     for (int row = 0; row < bound.size(); ++row) {

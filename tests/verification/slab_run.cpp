@@ -47,7 +47,7 @@ std::vector<double> bottom(const SlidingBody& body, int elements) {
   for (const int node : body.contact().node) {
     const double x = body.model().mesh.nodes.position[node][0];
     along_x[static_cast<std::size_t>(std::lround(x / period * elements) % elements)] =
-        body.displacement()[node][0];
+        body.next_displacement()[node][0];
   }
   MPI_Allreduce(MPI_IN_PLACE, along_x.data(), elements, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return along_x;

@@ -42,7 +42,7 @@ class StripSums {
     const BoundaryNodes& nodes = body.boundary_nodes();
     for (int k = 0; k < contact.size(); ++k) {
       const int slot = contact.slot[k];
-      const double next = body.displacement()[contact.node[k]][0] - nodes.displacement[slot][0],
+      const double next = body.next_displacement()[contact.node[k]][0] - nodes.displacement[slot][0],
                    velocity = (next + nodes.past_increment[slot][0]) / (2 * body.time_step());
       sum_[0] += contact.force[k][0];
       sum_[1] += contact.force[k][1];

@@ -138,7 +138,7 @@ State run(const Case& what) {
   state.count = state.count.over_ranks(PETSC_COMM_WORLD);
   const Mesh& mesh = simulation.mesh;
   const auto u = whole_field(PETSC_COMM_WORLD, mesh, simulation.body.displacement_n());
-  const auto v = whole_field(PETSC_COMM_WORLD, mesh, simulation.body.velocity());
+  const auto v = whole_field(PETSC_COMM_WORLD, mesh, simulation.body.velocity_n());
   const auto x = whole_field(PETSC_COMM_WORLD, mesh, mesh.nodes.position.data());
   for (std::size_t i = 0; i < x.size(); ++i)
     state.places[{std::lround(x[i][0] / what.block.width * what.block.nx),

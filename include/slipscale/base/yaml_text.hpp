@@ -10,7 +10,7 @@ namespace slipscale {
 struct YamlEntry {
   std::string name;                  ///< the keys above it joined with _
   std::optional<std::string> value;  ///< a list joined with commas; none where nothing stands behind the key
-  std::string doubt;                 ///< the first word of the value that YAML takes for something odd
+  std::string doubt;                 ///< the word of the value that YAML takes for more than a text, the oddest one
   int line = 0;                      ///< of the value's last key, from 1
 };
 

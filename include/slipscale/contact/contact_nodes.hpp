@@ -4,29 +4,22 @@
 
 #include "slipscale/base/vector2.hpp"
 #include "slipscale/contact/friction.hpp"
+#include "slipscale/contact/nodal_step.hpp"
 
 namespace slipscale {
 
 /// What contact needs to know of the step from t_n to t_{n+1}.
 struct ContactStep {
-  double displacement = 0;    ///< c: displacement that unit acceleration adds over the step, s²
-  double predictor = 0;       ///< what unit acceleration adds to the predictor, s
+  StepCoefficients motion;
   double surface_travel = 0;  ///< path of the surface over the step, m
   double surface_speed = 0;   ///< V at t_n, m/s
 };
 
-/// The state arrays of a rank that contact reads and changes, by local node.
-struct NodalState {
-  Vector2* displacement;  ///< in: û, the prediction of u_{n+1} without contact; m
-  Vector2* predictor;     ///< w_{n+1}, the velocity the next step starts with, m/s
-  Vector2* acceleration;  ///< a_n, m/s²; null when the step does not keep it
-};
-
 /// The owned nodes of this rank that can touch the rigid surface, in compact arrays, ascending node number.
 ///
-/// Forward-increment Lagrange multipliers (Carpenter, Taylor, Katona, IJNME 32 (1991) 103): the multiplier at
-/// t_n enforces the constraint at t_{n+1}. With lumped mass and a rigid plane the nodes do not see one
-/// another.
+/// Forward-increment Lagrange multipliers (Carpenter, Taylor, Katona, Int. J. Numer. Meth. Engng 32 (1991)
+/// 103), as in the paper (see contact/friction.hpp): the multiplier at t_n enforces the constraint at
+/// t_{n+1}. With lumped mass and a rigid plane the nodes do not see one another.
 class ContactNodes {
  public:
   /// `slot` is where a node stands in the arrays `before` and `support` below; `held`: its x is prescribed.
@@ -54,15 +47,17 @@ class ContactNodes {
   std::vector<double> traction;  ///< τ on the body along +x, Pa
   std::vector<double> pressure;  ///< p = λ/A ≥ 0, Pa
   std::vector<ContactStatus> status;
+  bool touched = false;  ///< whether any of them was closed at any step so far
 };
 
 template <class Law>
 void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector2* before, Vector2* support,
                            NodalState state) {
+  const double reach = step.motion.displacement;  // of unit acceleration over the step, s²
   for (int k = 0; k < size(); ++k) {
     const int i = node[k];
     const double m = mass[k], length = tributary_length[k];
-    Vector2& u = state.displacement[i];
+    const Vector2& u = state.displacement[i];
     const double gap = clearance[k] + u[1];
     if (gap >= 0) {
       force[k] = {0, 0};
@@ -71,12 +66,13 @@ void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector
       memory[k] = {};
       continue;
     }
-    const double normal = -gap * m / step.displacement;
+    touched = true;
+    const double normal = -gap * m / reach;
     const double missing = before[slot[k]][0] + step.surface_travel - u[0];
-    FrictionDemand demand{missing * m / (step.displacement * length), normal / length, 0};
+    FrictionDemand demand{missing * m / (reach * length), normal / length, 0};
     if constexpr (Law::uses_slip_rate)
       demand.slip_rate =
-          step.surface_speed - (state.predictor[i][0] - step.predictor * state.acceleration[i][0]);
+          step.surface_speed - (state.predictor[i][0] - step.motion.predictor * state.acceleration[i][0]);
     // A held node that does not slip leaves its share undetermined: the surface carries what friction can.
     if (held[k] && missing == 0) demand.trial = support[slot[k]][0] / length;
     const Friction friction = law(demand, memory[k]);
@@ -90,11 +86,7 @@ void ContactNodes::enforce(const Law& law, const ContactStep& step, const Vector
       support[slot[k]][0] -= force[k][0];
       push[0] = 0;
     }
-    for (int axis = 0; axis < 2; ++axis) {
-      if (state.acceleration) state.acceleration[i][axis] += push[axis];
-      state.predictor[i][axis] += step.predictor * push[axis];
-      u[axis] += step.displacement * push[axis];
-    }
+    for (int axis = 0; axis < 2; ++axis) accelerate(state, step.motion, i, axis, push[axis]);
   }
 }
 

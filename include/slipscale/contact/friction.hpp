@@ -8,9 +8,8 @@ enum class ContactStatus : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
 /// What a contact node remembers from one step to the next; zero when it is open.
 struct FrictionMemory {
-  double traction =
-      0;  ///< tangential traction of the last step, or the stored strength (regularised threshold), Pa
-  double pressure = 0;  ///< pressure of the last step, Pa
+  double traction = 0;  ///< of the last step; with the regularised threshold the stored strength; Pa
+  double pressure = 0;  ///< of the last step, Pa
 };
 
 /// What a law answers at a closed node.
@@ -26,9 +25,10 @@ struct FrictionDemand {
   double slip_rate;  ///< of the surface relative to the body, m/s; read only where `uses_slip_rate`
 };
 
-/// Exact update over one step of ṡ = −(s − μp)/T for a pressure that varies linearly (science: two weights,
-/// both ≥ 0, so the strength never leaves the range of what it relaxes to): s = keep s + μ (now p_n + before
-/// p_{n−1}).
+/// Exact update over one step of ṡ = −(s − μp)/T for a pressure that varies linearly over it:
+///     s_n = keep s_{n−1} + μ (now p_n + before p_{n−1})
+/// Both weights are ≥ 0, so that the strength never leaves the range of what it relaxes to. Second order in
+/// Δt/T; a pressure held over the step would be first order only.
 struct Relaxation {
   double keep = 0, now = 1, before = 0;
 };
@@ -48,9 +48,14 @@ struct Coulomb {
   Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
 };
 
-/// Simplified Prakash-Clifton law (the paper, section on friction; Cochard and Rice 2000): in slip the
-/// traction relaxes to μp in the time T instead of jumping. `rate: surface`: T = L*/|V| is one constant.
-/// Threshold `instantaneous`: sticks while |τ*| ≤ μp(t), the memory is the traction.
+/// Simplified Prakash-Clifton law: in slip the traction relaxes to μp in the time T instead of jumping,
+///     τ̇ = −(τ − μp sign τ*)/T.
+/// The law of what is called *the paper* everywhere in this code: G. Peillex, L. Baillet, Y. Berthier,
+/// "Homogeneous approach for composite under dynamic contact with friction", IJTC2007-44438, ASME/STLE
+/// International Joint Tribology Conference 2007 (see also "Homogenization in non-linear dynamics due to
+/// frictional contact", Int. J. Solids Struct. 45 (2008) 2451). After A. Cochard, J. R. Rice, J. Geophys.
+/// Res. 105 (2000) 25891. `rate: surface`: T = L*/|V| is one constant. Threshold `instantaneous`, the
+/// paper's: sticks while |τ*| ≤ μp(t), the memory is the traction.
 struct RegularizedInstantaneous {
   static constexpr bool uses_slip_rate = false;
   double coefficient;
@@ -67,7 +72,8 @@ struct RegularizedStrength {
   Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
 };
 
-/// `rate: slip`: T = L/(|slip rate| + V*) (Rubin and Ampuero 2007), with either threshold.
+/// `rate: slip`: T = L/(|slip rate| + V*), with either threshold (A. M. Rubin, J.-P. Ampuero, J. Geophys.
+/// Res. 112 (2007) B05307).
 template <class Threshold>
 struct SlipRate {
   static constexpr bool uses_slip_rate = true;

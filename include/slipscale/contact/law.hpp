@@ -33,6 +33,10 @@ FrictionChoice read_friction(const Options& options, const Surface& surface);
 /// time or length to relax over it is Coulomb's.
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step);
 
+/// The relaxation time T of a node that slips with the surface's full speed, s; infinite for a law without
+/// memory.
+double shortest_memory(const FrictionChoice& choice, double surface_speed);
+
 std::string describe(const FrictionChoice& choice);
 
 }  // namespace slipscale

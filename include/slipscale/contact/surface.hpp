@@ -22,7 +22,4 @@ bool has_surface(const Options& options);
 extern const Idle without_surface;  ///< what options say that need one
 Surface read_surface(const Options& options);
 
-/// The cosine ramp ½(1 − cos(πt/duration)), held at 1 afterwards; duration 0 is at once.
-double cosine_ramp(double time, double duration);
-
 }  // namespace slipscale

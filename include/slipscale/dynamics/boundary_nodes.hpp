@@ -33,20 +33,13 @@ class BoundaryNodes {
   std::vector<Vector2> load, support;
 };
 
-/// Adds to the acceleration of a node, and what follows from it over the step.
-inline void push(const NodalState& state, const StepCoefficients& step, int node, int axis,
-                 double acceleration) {
-  if (state.acceleration) state.acceleration[node][axis] += acceleration;
-  state.predictor[node][axis] += step.predictor * acceleration;
-  state.displacement[node][axis] += step.displacement * acceleration;
-}
-
 /// Tractions on named boundaries as consistent nodal forces.
 class Loads {
  public:
   Loads(const Mesh& mesh, const std::vector<BoundaryCondition>& conditions, const BoundaryNodes& nodes);
   bool empty() const { return entries_.empty(); }
-  /// The forces at `time`, into `nodes.load` and onto the state.
+  /// The forces at `time`, into `nodes.load` and onto the state. Nodes of a straight side are among them even
+  /// where no traction acts, so that their load starts from zero.
   void apply(double time, const StepCoefficients& step, BoundaryNodes& nodes, const NodalState& state) const;
 
  private:
@@ -68,6 +61,8 @@ class Supports {
            const BoundaryNodes& nodes, const Vector2* initial_displacement);
   bool empty() const { return entries_.empty(); }
   bool prescribes(int slot, int axis) const;
+  /// Sets the prescribed components of a velocity to that with which every ramp begins, 0.
+  void start(const BoundaryNodes& nodes, Vector2* velocity) const;
   /// Imposes ū(next_time); reactions go into `nodes.support`.
   void apply(double next_time, const StepCoefficients& step, BoundaryNodes& nodes,
              const NodalState& state) const;

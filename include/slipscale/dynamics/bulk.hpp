@@ -63,7 +63,7 @@ class FreeMotion {
         resistance += lag * (internal - load(arrays.previous_force[i]));
       if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
       const Lanes a = gravity - resistance * inverse_mass;
-      const Lanes increment = step.time_step * w + step.displacement * a;
+      const Lanes increment = displacement_increment(step, w, a);
       if constexpr (physics.keeps_force()) {
         Lanes past = step.time_step * w;
         if constexpr (physics.numerical_dissipation) {
@@ -78,7 +78,7 @@ class FreeMotion {
         }
       }
       store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
-      store(arrays.predictor[i], w + step.predictor * a);
+      store(arrays.predictor[i], next_predictor(step, w, a));
       if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
     }
     if constexpr (physics.keeps_force()) {

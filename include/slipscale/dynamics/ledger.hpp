@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/bulk.hpp"
 #include "slipscale/dynamics/scheme.hpp"
+#include "slipscale/dynamics/straight_sides.hpp"
 
 namespace slipscale {
 
@@ -11,17 +14,48 @@ namespace slipscale {
 struct Energy {
   double kinetic = 0;             ///< ½vᵀMv − (Δt²β2/4) aᵀMa
   double strain = 0;              ///< ½uᵀKu
-  double loads = 0;               ///< work of the tractions
+  double loads = 0;               ///< work of the tractions and of the forces on straight sides
   double supports = 0;            ///< work of the prescribed displacements
   double body_force = 0;          ///< work of gravity
   double surface_drive = 0;       ///< work of the motor that drives the surface, ∫ τV
-  double friction_heat = 0;       ///< ∫ τ(V − u̇_x) ≥ 0
+  double friction_heat = 0;       ///< ∫ τ(V − u̇_x), see below
   double impact_loss = 0;         ///< lost where nodes meet the surface
   double damping = 0;             ///< lost to bulk damping
   double scheme_dissipation = 0;  ///< lost to the time scheme, β2 > ½
   double residual = 0;            ///< what the balance misses: rounding
   double flowed = 0;              ///< sum of the sizes of all the terms: the scale of the residual
 };
+
+/// One term of the balance: what files, summary and the balance itself call it, in their order.
+struct EnergyTerm {
+  enum class Role { stored, supplied, lost, check };
+  const char* name;
+  double Energy::*value;
+  Role role;
+  const char* description;
+};
+
+inline constexpr std::array<EnergyTerm, 12> energy_terms{{
+    {"kinetic", &Energy::kinetic, EnergyTerm::Role::stored, "kinetic energy, with the scheme's correction"},
+    {"strain", &Energy::strain, EnergyTerm::Role::stored, "strain energy"},
+    {"loads", &Energy::loads, EnergyTerm::Role::supplied, "work of the tractions and forces since t = 0"},
+    {"supports", &Energy::supports, EnergyTerm::Role::supplied,
+     "work of the prescribed displacements since t = 0"},
+    {"body_force", &Energy::body_force, EnergyTerm::Role::supplied,
+     "work of the body acceleration since t = 0"},
+    {"surface_drive", &Energy::surface_drive, EnergyTerm::Role::supplied,
+     "work of the motor that drives the surface since t = 0"},
+    {"friction_heat", &Energy::friction_heat, EnergyTerm::Role::lost, "heat of friction since t = 0"},
+    {"impact_loss", &Energy::impact_loss, EnergyTerm::Role::lost,
+     "energy lost where nodes met the surface since t = 0"},
+    {"damping", &Energy::damping, EnergyTerm::Role::lost, "energy lost to bulk damping since t = 0"},
+    {"scheme_dissipation", &Energy::scheme_dissipation, EnergyTerm::Role::lost,
+     "energy lost to the time scheme since t = 0"},
+    {"residual", &Energy::residual, EnergyTerm::Role::check, "what the balance misses"},
+    {"flowed", &Energy::flowed, EnergyTerm::Role::check,
+     "sum of the sizes of all terms, the scale of the residual"},
+}};
+static_assert(sizeof(Energy) == energy_terms.size() * sizeof(double), "every term has its line");
 
 /// Work Σ Δuᵀ[(1 − β2) f_n + β2 f_{n+1}] of one kind of force; the part that waits for f_{n+1} is kept apart.
 class Work {
@@ -40,6 +74,10 @@ class Work {
 /// The exact discrete energy balance of the β2 scheme: with Δ = new − old and f all forces but −Ku,
 ///     Ê = ½vᵀMv + ½uᵀKu − (Δt²β2/4) aᵀMa,
 ///     ΔÊ = Δuᵀ[(1−β2) f_n + β2 f_{n+1}] − (β2−½)[ΔuᵀKΔu − (Δt²β2/2) ΔaᵀMΔa].
+/// So each force works along the step before it with weight β2 and along the step after it with 1 − β2. What
+/// holds for the friction of one step, τ_n (V Δt − Δu_x) ≥ 0, holds for the step after t_n, which is the one
+/// that the law sees; along the step before it the node may have moved the other way. The heat of a whole run
+/// is therefore positive, a single row may fall below the one before by the order of one step.
 /// Works are summed every step over this rank's boundary nodes; sums over ranks are taken when a row asks for
 /// them.
 class EnergyLedger {
@@ -57,12 +95,16 @@ class EnergyLedger {
                 const StepCoefficients& step, const BoundaryNodes& nodes, const ContactNodes& contact,
                 const NodalState& state, const Vector2* force, bool first);
 
+  /// The same for the mass of the plates on straight sides, which are part of what moves: their pushes on the
+  /// nodes are among the loads, and with their own inertia the loads become the forces on the plates.
+  void add_plates(const StraightSides& sides);
+
   /// This rank's works; kinetic, strain and body force are left to the caller.
   Energy works() const;
 
  private:
   double beta2_, time_step_;
-  Work loads_, supports_, drive_, heat_, impact_, damping_;
+  Work loads_, plates_, supports_, drive_, heat_, impact_, damping_;
   double scheme_ = 0;
   double past_travel_ = 0;
   std::vector<Vector2> scratch_;  ///< all boundary forces by slot; kept so that a step allocates nothing

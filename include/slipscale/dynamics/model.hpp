@@ -54,7 +54,7 @@ struct FrequencyBounds {
 };
 
 /// The largest frequency of the undamped free body, two ways. Does not depend on the number of ranks.
-/// Collective.
+/// Infinite where the stiffness or the mass of a cell is beyond double precision. Collective.
 FrequencyBounds largest_frequency(MPI_Comm comm, const Model& model);
 
 }  // namespace slipscale

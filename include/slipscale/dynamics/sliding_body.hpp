@@ -9,8 +9,18 @@
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/ledger.hpp"
 #include "slipscale/dynamics/scene.hpp"
+#include "slipscale/dynamics/straight_sides.hpp"
 
 namespace slipscale {
+
+/// What a body carries at one time, per metre of depth. Angular momentum is that of linear elasticity, Σ m x
+/// × v with the undeformed place x of each node, which forces inside the body leave unchanged to rounding; it
+/// means nothing on a periodic mesh.
+struct Momentum {
+  double mass = 0;     ///< kg/m
+  Vector2 linear{};    ///< Σ m v, kg/s
+  double angular = 0;  ///< about the middle of the block, counter-clockwise, kg m/s
+};
 
 /// A deformable body that moves in explicit time, pressed on a rigid surface that slides under it.
 ///
@@ -21,7 +31,8 @@ class SlidingBody {
   /// Throws UserError for contradictory conditions and a body that starts below the surface. Collective.
   SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step);
 
-  /// One step; `observed` as above. One halo exchange, no reduction, no allocation.
+  /// One step; `observed` as above. One halo exchange, no allocation, and no other communication but for one
+  /// small gather for each side that is kept straight.
   void advance(bool observed);
 
   long steps_done() const { return step_; }
@@ -33,12 +44,15 @@ class SlidingBody {
   const Scene& scene() const { return scene_; }
   MPI_Comm comm() const { return comm_; }
 
-  const Vector2* displacement_n() const { return kept_.data(); }  ///< u_n, all local nodes, m; observed steps
-  const Vector2* displacement() const { return u_.data(); }       ///< u_{n+1}, all local nodes, m
-  const Vector2* predictor() const { return w_.data(); }          ///< w_{n+1}, owned nodes, m/s
-  const Vector2* velocity() const { return v_.data(); }           ///< v_n, owned nodes, m/s; observed steps
-  const Vector2* acceleration() const { return a_.data(); }       ///< a_n, owned nodes, m/s²; observed steps
-  const Vector2* internal_force() const { return force_.data(); }    ///< K u_n, owned nodes, N/m
+  // Of an observed step:
+  const Vector2* displacement_n() const { return kept_.data(); }  ///< u_n, all local nodes, m
+  const Vector2* velocity_n() const { return v_.data(); }         ///< v_n, owned nodes, m/s
+  const Vector2* acceleration_n() const { return a_.data(); }     ///< a_n, owned nodes, m/s²
+  // Of every step:
+  const Vector2* internal_force_n() const { return force_.data(); }  ///< K u_n, owned nodes, N/m
+  /// u_{n+1}, m; owned nodes only: the exchange that brings the ghosts is under way until the next step.
+  const Vector2* next_displacement() const { return u_.data(); }
+  const Vector2* next_predictor() const { return w_.data(); }        ///< w_{n+1}, owned nodes, m/s
   const ContactNodes& contact() const { return contact_; }           ///< at t_n
   const BoundaryNodes& boundary_nodes() const { return boundary_; }  ///< at t_n
   /// The boundaries whose nodes are the boundary nodes: with a condition, at the surface, measured; sorted.
@@ -49,8 +63,14 @@ class SlidingBody {
   /// Force of the body on its support at an owned node of a boundary, −(K u_n + stiffness damping), N/m.
   Vector2 force_on_support(int slot) const;
 
+  const StraightSides& straight_sides() const { return *straight_; }  ///< at t_n
+
   /// The energy balance at t_n of an observed step, summed over the ranks. Collective.
   Energy energy() const;
+  /// Mass and momenta at t_n of an observed step, without plates, summed over the ranks. Collective.
+  Momentum momentum() const;
+  /// Whether any contact node was closed at any step so far. Collective.
+  bool has_touched() const;
 
  private:
   template <BulkPhysics physics>
@@ -61,6 +81,7 @@ class SlidingBody {
   static auto free_motion_table(std::index_sequence<Index...>);
   void find_velocity(const StepCoefficients& step);
 
+  void start_force();
   void set_contact_nodes();
   Energy local_energy() const;  ///< this rank's terms; no residual, flowed kinetic only
   NodalState state(bool with_acceleration) const;
@@ -76,6 +97,7 @@ class SlidingBody {
   BoundaryNodes boundary_;
   Loads loads_;
   std::unique_ptr<Supports> supports_;  ///< made once the initial displacement is known
+  std::unique_ptr<StraightSides> straight_;
   ContactNodes contact_;
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory

@@ -35,10 +35,15 @@ class GridFile {
   void refuse_unless(bool fine, const std::string& fault, const std::string& cure) const;
   void refuse_unless(bool fine, const std::string& fault) const { refuse_unless(fine, fault, source_.cure); }
 
-  /// /mesh with its regions; checked, so that no index leads astray. Collective.
+  /// Whether an object has an attribute, as files of older versions may not.
+  bool has_attribute(const std::string& object, const std::string& attribute) const;
+
+  /// /mesh with its regions; checked: no index leads astray, every cell has an area, and they do not overlap.
+  /// Collective.
   PlaneGrid grid() const;
 
-  // To be called within `together`; throw LibraryError.
+  // To be called within `together`; throw LibraryError, also for what is not a finite number and where the
+  // file is too small for what a dataset declares.
 
   std::vector<hsize_t> shape(const std::string& dataset) const;
   std::vector<double> reals(const std::string& dataset) const;

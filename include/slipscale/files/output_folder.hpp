@@ -10,8 +10,10 @@ namespace slipscale {
 
 class FolderLock;
 
-/// Writes a text under a temporary name and renames it, so that nobody ever sees half of it. On the calling
-/// rank only; throws `LibraryError` with the system's words.
+/// Writes a text under a temporary name and renames it, so that nobody ever sees half of it. Returns one
+/// sentence on why it could not, with the system's words; empty when it could. On the calling rank only.
+std::string try_replace_text_file(const std::string& path, const std::string& text);
+/// The same; throws the sentence as `LibraryError`.
 void replace_text_file(const std::string& path, const std::string& text);
 
 /// Why no file can be written into the folder -output_folder names, which need not exist yet: one sentence

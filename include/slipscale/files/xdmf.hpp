@@ -46,7 +46,7 @@ std::string frame_path(std::size_t frame);
 /// meshio's TimeSeriesReader.
 std::string xdmf_text(const XdmfDocument& document);
 
-/// Replaces the file as a whole; UserError on all ranks when it cannot be written. Collective.
+/// Replaces the file as a whole; `RunError` on all ranks when it cannot be written. Collective.
 void write_xdmf(MPI_Comm comm, const std::string& path, const XdmfDocument& document);
 
 }  // namespace slipscale

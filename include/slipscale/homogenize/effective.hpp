@@ -9,11 +9,13 @@
 
 namespace slipscale {
 
-/// A part of the cell made of one material.
+/// A part of the unit cell made of one material; holes are one without stiffness.
 struct Phase {
   std::string region;
-  double fraction = 0;  ///< of the cell's area
+  double fraction = 0;  ///< of the unit cell's area
   Material material;
+
+  bool is_empty() const { return material.stiffness.isZero(0); }
 };
 
 /// The phases that differ in stiffness, in the order they first appear: regions of one stiffness are one
@@ -22,10 +24,14 @@ std::vector<Phase> elastic_phases(const std::vector<Phase>& phases);
 
 double mean_density(const std::vector<Phase>& phases);          ///< kg/m³
 Eigen::Matrix3d voigt_bound(const std::vector<Phase>& phases);  ///< ⟨C⟩, Pa
-Eigen::Matrix3d reuss_bound(const std::vector<Phase>& phases);  ///< ⟨C⁻¹⟩⁻¹, Pa
+Eigen::Matrix3d reuss_bound(const std::vector<Phase>& phases);  ///< ⟨C⁻¹⟩⁻¹, Pa; 0 with holes
 
 /// Whether C is that of an isotropic solid, to 1e-9 of its size.
 bool is_isotropic(const Eigen::Matrix3d& stiffness);
+
+/// Whether ν of the nearest isotropic solid exceeds .49: with a plane bulk modulus of more than fifty shear
+/// moduli, linear triangles and fully integrated quadrilaterals lock.
+bool nearly_incompressible(const Eigen::Matrix3d& stiffness);
 
 /// Bounds of the plane bulk modulus k = λ + G and the shear modulus G of an isotropic mixture, Pa. For a
 /// mixture that is not isotropic they hold for k and for the mean of its two shear moduli (trace bounds:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,12 +13,13 @@ namespace slipscale {
 
 /// All that a run of `homogenize` finds.
 struct Homogenised {
-  std::vector<Phase> phases;  ///< by region
+  std::vector<Phase> phases;  ///< by region, and the holes last where there are any
   std::vector<CellSolution>
       solutions;  ///< one for each boundary condition asked for; the first is the result
   std::vector<Eigen::Matrix3d> refined;  ///< C_eff on the once refined mesh, one for each solution; or empty
   std::vector<Eigen::Matrix3d> phase_means;  ///< ⟨A⟩ over each of `phases`, of the first solution; or empty
   PetscInt cells = 0, nodes = 0;
+  std::uint64_t mesh_checksum = 0;  ///< Mesh::checksum
   int ranks = 1;
   double memory = 0;   ///< of all ranks, bytes
   double seconds = 0;  ///< in all, mesh reading included
@@ -39,12 +41,16 @@ std::optional<double> two_phase_residual(const Homogenised& found);
 /// Richardson's estimate for one of the solutions; absent without refined mesh.
 std::optional<Richardson> discretisation_error(const Homogenised& found, std::size_t solution);
 
+/// What makes the stiffness doubtful, a sentence each without stop: bounds that it violates, elements that
+/// lock. They stand in effective.yaml, and who reads it hears of them.
+std::vector<std::string> doubts(const Homogenised& found);
+
 /// The report for the screen: moduli in GPa, bounds with a check mark, residuals, error bars, costs.
 std::string describe(const Homogenised& found);
 
 /// effective.yaml: `stiffness` [c11, c22, c12, c66, c16, c26] in Pa and `density`, which `slide` reads with
-/// -material_file, and everything else of the report nested under `homogenize`, with the options `effective`
-/// under `homogenize: options:`.
+/// -material_file, `doubt` where there is any, and everything else of the report nested under `homogenize`,
+/// with the options `effective` under `homogenize: options:`.
 std::string effective_yaml(const Homogenised& found, const std::map<std::string, std::string>& effective);
 
 }  // namespace slipscale

@@ -14,7 +14,8 @@ namespace slipscale {
 /// /mesh/coordinates, /mesh/cells, /mesh/region as in fields.h5; /cell/region (the same), /cell/area [cells],
 /// /cell/localisation [cells, 3, 3] (rows: local strain, columns: load cases), /cell/stress_xx, _yy, _xy
 /// [cells, 3] one for each load case; /region/stiffness [regions, 3, 3]; /effective/stiffness [3, 3] with the
-/// boundary condition's name. Every dataset has its units and description.
+/// boundary condition's name, the cell's area (holes included) and the mesh file's checksum. Every dataset
+/// has its units and description.
 ///
 /// Both files appear under their names when they are whole. Throws UserError on all ranks when they cannot be
 /// written. Collective.

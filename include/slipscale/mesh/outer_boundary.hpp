@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "slipscale/mesh/mesh.hpp"
@@ -15,16 +14,5 @@ struct OuterEdge {
 
 /// The outer edges around the owned nodes. Every cell around an owned node is local, so nothing is exchanged.
 std::vector<OuterEdge> outer_edges(const Mesh& mesh);
-
-/// A place, m, where the two sides of a torus's seam differ, though the mesh file pairs them: an edge whose
-/// two cells see it with different ends. Of this rank's edges; empty when all match, and on a mesh without
-/// seam.
-std::optional<Vector2> unmatched_edge(const Mesh& mesh);
-
-/// Number of holes of a mesh of one part. `outer` are the outer edges, not none. Collective.
-PetscInt holes(MPI_Comm comm, const Mesh& mesh, const std::vector<OuterEdge>& outer);
-
-/// Number of parts of the mesh that share no node. Collective.
-int connected_parts(MPI_Comm comm, const Mesh& mesh);
 
 }  // namespace slipscale

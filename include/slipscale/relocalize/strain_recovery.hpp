@@ -63,9 +63,7 @@ class StrainRecovery {
 
   std::size_t points() const { return element_.size() + nodal_.size(); }
 
-  /// From [cells of the mesh] to [points]; allocates on the first call only. A covariance goes the same way:
-  /// it is a smooth field of the place. (That of the recovered strain would need the covariances between
-  /// cells.)
+  /// From [cells of the mesh] to [points]; allocates on the first call only.
   void operator()(std::span<const std::array<double, 3>> cells, std::span<std::array<double, 3>> points) {
     evaluate(cells, points, nodes3_);
   }

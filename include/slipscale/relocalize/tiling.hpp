@@ -8,9 +8,12 @@
 
 namespace slipscale {
 
+/// In this room *cells* are those of meshes, and a *unit cell* is the piece of microstructure that a periodic
+/// micro mesh draws.
+
 /// How the mesh of the microstructure fills the block of a homogeneous run: repeated with a period, or once.
 struct Tiling {
-  Box cell;          ///< of the micro mesh, m
+  Box unit;          ///< of the micro mesh, m: the unit cell where it repeats
   Vector2 origin{};  ///< lower left corner of one copy, m
   bool repeats = true;
 
@@ -23,9 +26,10 @@ struct Tiling {
 /// A micro mesh whose box is that of the block (to 1e-6 of its size) fills it once, unless an origin is
 /// given. Another one must be `periodic`, and repeats with its width and height from `origin` (by default
 /// from where it lies). Throws UserError when tensors of a whole block (kubc, subc) belong to another block,
-/// and when a periodic cell is not a rectangle.
+/// when a unit cell is not a rectangle (`hole_area`, m², is that of its holes), and when the block holds
+/// so many copies that one of the two must be in another unit of length.
 Tiling tiling(const PlaneGrid& micro, bool periodic, const Box& block,
-              const std::optional<Vector2>& origin = std::nullopt);
+              const std::optional<Vector2>& origin = std::nullopt, double hole_area = 0);
 
 /// Where a point lies at both scales.
 struct Site {

@@ -1,10 +1,9 @@
 """Finds the regularisation time with which a homogeneous model rubs as the composite does.
 
     slipscale adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
-        [--program "build/release/slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
+        [--program "mpirun -n 2 slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
 
-Both are folders of `slide`; the homogeneous run is repeated with its run.yaml, from the same working folder. The
-levels, all three by default:
+Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. The levels, all three by default:
 
     scaling    T such that ωT is that of the heterogeneous run, ω the dominant frequency of friction
     frequency  T such that at the frequency through which most passes, the homogeneous surface moving and being
@@ -25,7 +24,7 @@ a level came nearer in its spectrum of friction, and nearer than a block that do
 """
 
 import math
-import sys
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +38,7 @@ from slipscale.measuring.window import default_window
 from slipscale.parser import Parser
 from slipscale.reading import History, UnreadableRun
 from slipscale.reading.yaml_file import load
+from slipscale.running import programs
 from slipscale.running.attempt import number_or_text, write_whole
 
 LEVELS = ("scaling", "frequency", "search")
@@ -107,6 +107,8 @@ class Adaptation:
     def search(self):
         values = search.scan_values(self.start, self.asked.factor, self.asked.points)
         rows = [self.trial(value) for value in values]
+        if not any(row["status"] == "ok" for row in rows):
+            raise Failure(f"no run of the scan came to its end: {rows[0]['reason']}")
         told = {"scan": [{name: row.get(name) for name in (self.asked.parameter, *MATCHES.values(), *SHARES,
                                                            "spectrum_distance", "status", "reason")} for row in rows]}
         seen = {}
@@ -215,7 +217,8 @@ def parsed(arguments):
     parser.add_argument("--output", required=True, help="folder of adapt.yaml and the trials")
     parser.add_argument("--level", dest="levels", nargs="+", choices=LEVELS, help="default: all; of another parameter "
                         "than friction_time only search")
-    parser.add_argument("--program", default="build/release/slide", help="words before the options, as 'mpirun -n 2 …'")
+    parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside this "
+                        "command)")
     parser.add_argument("--match", choices=tuple(MATCHES))
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="s; default: the second half")
     parser.add_argument("--parameter", default="friction_time", help="option of slide that is adapted")
@@ -225,6 +228,7 @@ def parsed(arguments):
     parser.add_argument("--points", type=int, default=7, help="of the scan")
     parser.add_argument("--most", type=int, default=10, help="trials after the scan")
     asked = parser.parse_args(arguments)
+    asked.program = programs.words_of(asked.program or shlex.quote(str(programs.program("slide"))))
     asked.set = {name: number_or_text(value) for name, _, value in (word.partition("=") for word in asked.set)}
     asked.levels = asked.levels or (LEVELS if asked.parameter == "friction_time" else LEVELS[-1:])
     if asked.parameter != "friction_time" and set(asked.levels) != {"search"}:
@@ -234,11 +238,7 @@ def parsed(arguments):
 
 def main(arguments=None):
     asked = parsed(arguments)
-    try:
-        found = Adaptation(asked.heterogeneous, adapted_before(asked.homogeneous), asked).report()
-    except (UnreadableRun, OSError) as error:
-        print(error, file=sys.stderr)
-        return 2
+    found = Adaptation(asked.heterogeneous, adapted_before(asked.homogeneous), asked).report()
     Path(asked.output).mkdir(parents=True, exist_ok=True)
     write_whole(Path(asked.output) / "adapt.yaml", yaml.safe_dump(plain(found), sort_keys=False, width=1000,
                                                                   allow_unicode=True))

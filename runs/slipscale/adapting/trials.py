@@ -26,7 +26,18 @@ def options_of(folder):
     options = Summary(folder).options
     if "mesh_file" not in options:
         raise UnreadableRun(f"{Path(folder) / 'run.yaml'} does not say which mesh was run: is this a folder of `slide`?")
-    return {name: value for name, value in options.items() if not name.startswith(LEFT_OUT)}
+    kept = {name: value for name, value in options.items() if not name.startswith(LEFT_OUT)}
+    return {name: found_file(value, folder) if name.endswith("_file") else value for name, value in kept.items()}
+
+
+def found_file(path, folder):
+    """An absolute path: of the file from here, else as it is named from a folder above the run's, from which it was
+    started. Raises UnreadableRun when there is none."""
+    places = [Path(path), *(parent / path for parent in Path(folder).resolve().parents)]
+    if found := next((place for place in places if place.is_file()), None):
+        return str(found.resolve())
+    raise UnreadableRun(f"{Path(folder) / 'run.yaml'} names {path}, which is neither here nor in a folder above the run: "
+                        "start from where the run was started, or put it back.")
 
 
 def changed(options, changes):
@@ -56,11 +67,11 @@ def value_of(options, parameter):
 
 
 class Trials:
-    """Runs of `program` (words) with `options` in folders below `output`, each compared over `window` (s) with
+    """Runs of `program` (a list of words) with `options` in folders below `output`, each compared over `window` (s) with
     `reference`, a spectrum as of `regime.friction_spectrum`."""
 
     def __init__(self, program, options, output, window, reference):
-        self.program, self.options, self.output = shlex.split(program), options, Path(output)
+        self.program, self.options, self.output = program, options, Path(output)
         self.window, self.reference = window, reference
         self.done = []  # dicts, in the order in which they were asked for
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from slipscale.parser import Parser
-from slipscale.pictures.drawing import draw_cells, limits_of, plt, write_picture
+from slipscale.pictures.drawing import draw_cells, limits_of, plt, shown, write_picture
 from slipscale.reading import OnMesh, UnreadableRun, read_dataset, read_yaml
 
 GIGA = 1e-9
@@ -112,13 +112,15 @@ def headline(folder, cell):
                    f"anisotropy {100 * float(constants['anisotropy']):.2g} %"]
     if "density" in cell.yaml:
         numbers.append(f"density {float(cell.yaml['density']):.5g} kg/m³")
-    return f"{folder}: {len(cell.region)} cells, {cell.boundary}\n" + "   |   ".join(numbers)
+    return f"{shown(folder)}: {len(cell.region)} cells, {cell.boundary}\n" + "   |   ".join(numbers)
 
 
 def draw(folder):
     """The figure of the cell in `folder`. Raises UnreadableRun."""
     cell = Cell(folder)
-    figure, axes = plt.subplots(2, 2, figsize=(14, 11.5), layout="constrained")
+    width, height = np.ptp(cell.coordinates, axis=0)
+    tall = 2 * min(8.0, max(4.7, 5.2 * height / width + 0.6))  # two rows; the text needs 4.7
+    figure, axes = plt.subplots(2, 2, figsize=(14, tall), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.08)
     for panel, (case, _, _), letter in zip(axes.flat, CASES, "abc"):
         stress_panel(panel, figure, cell, case, letter)

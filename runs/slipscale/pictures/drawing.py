@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from PIL import Image
 
 from slipscale.mistakes import Mistake
@@ -64,6 +65,15 @@ def draw_cells(axes, mesh, values, colours, linewidth=0.8):
     axes.set_aspect("equal")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
     return image
+
+
+def few_ticks(axis):
+    """On a logarithmic axis that spans a decade or so the labels of 1, 2 and 5 do not run into each other."""
+    low, high = sorted(axis.get_view_interval())
+    if low > 0 and high < 30 * low:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def keep_small(picture, copy):

@@ -26,6 +26,6 @@ def portraits(axes, runs, window, point=0, last=None):
         u, v = history.points[point].u[rows, 0] * MICRO, history.points[point].v[rows, 0]
         axes.plot(u, v, color=colour_of(k, name), linewidth=0.7, alpha=0.8, label=name, rasterized=True)
     axes.grid(alpha=0.25)
-    axes.legend(framealpha=0.9, fontsize="small")
+    axes.legend(frameon=False, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2)
     axes.set(title=f"Phase portrait of M, {in_words(window)}", xlabel="tangential displacement [µm]",
              ylabel="tangential velocity [m/s]")

@@ -5,6 +5,8 @@
 Works on a run that is still going. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
+import textwrap
+
 import numpy as np
 
 from slipscale.measuring.averages import ratio_of_means, settling, with_error
@@ -69,7 +71,10 @@ def headline(folder, history, summary, boundary, window, dominant):
     residual = panels.relative_residual(history)
     if residual is not None:
         numbers.append(f"energy residual {residual:.0e}")
-    return f"{shown(folder)}: {state}\n" + "\n".join("   |   ".join(numbers[k:k + 4]) for k in (0, 4) if numbers[k:])
+    lines = [f"{shown(folder)}: {state}", *("   |   ".join(numbers[k:k + 4]) for k in (0, 4) if numbers[k:])]
+    if doubt := summary.headline.get("aliases"):
+        lines += textwrap.wrap(str(doubt), 150)[:2]
+    return "\n".join(lines)
 
 
 def main(arguments=None):

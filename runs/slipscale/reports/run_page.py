@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from slipscale.measuring.averages import with_error
 from slipscale.mistakes import Mistake
 from slipscale.pictures.picture import draw
 from slipscale.reports import html
@@ -12,7 +13,6 @@ from slipscale.reports.commented_yaml import group_of, rows_of
 from slipscale.run import Run
 
 SOUND_RESIDUAL = 1e-9  # of the energy that flowed: rounding stays far below
-SETTLED = 0.05  # amplitudes of the two halves of the window may differ by this part
 
 
 def run_page(folder):
@@ -51,7 +51,7 @@ def headline(run):
         found = run.measures()
     except Mistake:
         return []
-    cards = [(f"{found['friction']:.4f}", "mean tangential over mean normal force"),
+    cards = [(with_error(found["friction"], found["friction_error"]), "mean tangential over mean normal force"),
              (found["regime"], "regime"),
              (f"{found['frequency'] / 1e3:.4g} kHz" if found["frequency"] else "none", "strongest frequency of friction"),
              (f"{100 * found['stick']:.1f} / {100 * found['slip']:.1f} / {100 * found['open']:.1f} %",
@@ -68,10 +68,11 @@ def warnings(run):
     if residual is not None and not abs(residual) <= SOUND_RESIDUAL:
         said.append(f"The energy balance misses {residual:.1e} of what flowed: more than rounding.")
     try:
-        settled = run.measures()["settled"]
-        if abs(settled - 1) > SETTLED:
-            said.append(f"The run had not settled: the amplitude of friction in the last quarter is {settled:.3g} times "
-                        "that of the quarter before, so its averages belong to this window only.")
+        found = run.settling()
+        if not found.settled:
+            said.append(f"The run had not settled: from the first half of the window to the second the amplitude of friction "
+                        f"changes by the factor {found.amplitude_ratio:.3g} and its mean by {100 * found.drift:+.2g} %, so "
+                        "its averages belong to this window only.")
     except Mistake as few:
         said.append(str(few))
     return said

@@ -8,6 +8,7 @@ from pathlib import Path
 import yaml
 
 from slipscale.mistakes import Mistake
+from slipscale.reading import yaml_file
 from slipscale.run import Run
 from slipscale.running import programs
 from slipscale.running.commands import word
@@ -56,7 +57,7 @@ def _written(scene, folder):
 
 
 def _folder_of(scene):
-    scene = yaml.safe_load(Path(scene).read_text())
+    scene = yaml_file.options(scene)
     return scene.get("output_folder") or scene["output"]["folder"]
 
 

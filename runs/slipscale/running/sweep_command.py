@@ -130,10 +130,14 @@ def planned(asked):
     return study, plan(study, manuals)
 
 
+def counted(things, one, several):
+    return f"{len(things)} {one if len(things) == 1 else several}" if things else ""
+
+
 def said(study, found):
     """How much is to be run and where it will be, a text."""
-    counts = [f"{len(found.runs)} runs", f"{len(found.meshes)} meshes" if found.meshes else "",
-              f"{len(found.effectives)} effective materials" if found.effectives else ""]
+    counts = [counted(found.runs, "run", "runs"), counted(found.meshes, "mesh", "meshes"),
+              counted(found.effectives, "effective material", "effective materials")]
     out = study["output"]
     return (f"{', '.join(filter(None, counts))}; the study: {out}/study.yaml\ntable:   {out}/table.csv\n"
             f"picture: {out}/picture/picture.png")

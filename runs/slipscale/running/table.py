@@ -64,7 +64,8 @@ def write_csv(path, rows):
 
 
 def read_csv(path):
-    """Rows as dicts, numbers as int or float, what is empty as None."""
+    """Rows as dicts, numbers as int or float, what is empty as None; of a folder its table.csv."""
+    path = Path(path) / "table.csv" if Path(path).is_dir() else path
     with Path(path).open(newline="") as file:
         return [{name: number_or_text(text) for name, text in row.items()} for row in csv.DictReader(file)]
 

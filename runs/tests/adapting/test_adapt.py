@@ -11,6 +11,7 @@ from pathlib import Path
 import h5py
 import yaml
 
+from slipscale import command
 from slipscale.adapting import adapt
 from tests import fake_slide
 
@@ -24,6 +25,7 @@ class Adapt(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         os.environ["PYTHONPATH"] = str(RUNS)
+        (self.folder / "mesh.msh").touch()  # beside the runs: found from a folder above them
         for name, time in (("truth", TRUTH), ("own", 2e-6)):
             fake_slide.write({"mesh_file": "mesh.msh", "friction_length": 2 * time, "friction_time": time,
                               "surface_speed": 2.0, "friction_coefficient": 0.5,
@@ -33,7 +35,7 @@ class Adapt(unittest.TestCase):
         """The exit code, what adapt.yaml says, and what was said."""
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            code = adapt.main([str(self.folder / "truth"), str(self.folder / "own"), "--output",
+            code = command.main(["adapt", str(self.folder / "truth"), str(self.folder / "own"), "--output",
                                str(self.folder / "adapted"), "--program", f"{sys.executable} -m tests.fake_slide",
                                "--window", "5e-5", "1e-4", *words])
         file = self.folder / "adapted" / "adapt.yaml"
@@ -94,6 +96,23 @@ class Adapt(unittest.TestCase):
         left = adapt.adapted_before(self.folder / "adapted")
         self.assertIn("/trials/friction_time_", left)
         self.assertEqual(adapt.adapted_before(self.folder / "own"), self.folder / "own")
+
+    def test_a_missing_program_is_the_only_message(self):
+        code, found, said = self.run_adapt("--program", "build/nowhere/slide")
+        self.assertEqual((code, found, said.count("\n")), (2, None, 1))
+        self.assertIn("there is no program build/nowhere/slide", said)
+        code, _, said = self.run_adapt("--program", f"{sys.executable} build/nowhere/slide")
+        self.assertEqual((code, said.count("\n")), (2, 1))
+
+    def test_a_scan_of_which_no_run_ends_says_why(self):
+        _, found, _ = self.run_adapt("--level", "search", "--set", "friction_coefficient=9")
+        self.assertIn("no run of the scan came to its end: slide: this coefficient is too large", found["reason"])
+
+    def test_a_missing_mesh_is_named(self):
+        (self.folder / "mesh.msh").unlink()
+        code, _, said = self.run_adapt()
+        self.assertEqual((code, said.count("\n")), (2, 1))
+        self.assertIn("names mesh.msh, which is neither here nor in a folder above the run", said)
 
     def test_what_cannot_be_read(self):
         code, found, said = self.run_adapt("--parameter", "damping_stiffness")

@@ -10,7 +10,7 @@ from slipscale.measuring.regime import friction_spectrum
 from slipscale.reading import UnreadableRun
 from tests import fake_slide
 
-PROGRAM = f"{sys.executable} -m tests.fake_slide"
+PROGRAM = [sys.executable, "-m", "tests.fake_slide"]
 WINDOW = (5e-5, 1e-4)
 
 
@@ -42,7 +42,8 @@ class Repetitions(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-        self.options = {"mesh_file": "mesh with a blank.msh", "friction_time": 1e-6, "friction_coefficient": 0.5}
+        (self.folder / "mesh with a blank.msh").touch()
+        self.options = {"mesh_file": str(self.folder.resolve() / "mesh with a blank.msh"), "friction_time": 1e-6, "friction_coefficient": 0.5}
         fake_slide.write({**self.options, "output_folder": str(self.folder / "run")})
         self.spectrum = friction_spectrum(self.folder / "run", WINDOW)
 

@@ -55,8 +55,9 @@ class OfAPoint(Pictures):
                                                   window=WINDOW, point=0, **options))
 
     def test_distances_over_the_scatter(self):
-        panel = self.draw().axes[-1]
-        self.assertIn("amplitude differs", panel.get_title())
+        figure = self.draw()
+        panel = figure.axes[-1]
+        self.assertIn("amplitude differs", figure.subfigs[0]._suptitle.get_text())
         spectrum = [float(np.ravel(line.get_xdata())[0]) for line in panel.lines[:3]]
         # 1/1.1 and 1.1 against each other, 1.3 against 1.05, over the largest of a morphology
         np.testing.assert_allclose(spectrum, [1 / 1.1, 1, (1.3 / 1.05 - 1) / 0.1], rtol=2e-2)

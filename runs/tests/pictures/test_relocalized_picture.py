@@ -107,8 +107,33 @@ class RelocalizedPicture(unittest.TestCase):
         reference, homogeneous, relocalised = panels["(e)"].lines[:3]
         np.testing.assert_allclose(relocalised.get_ydata(), 1.05 * reference.get_ydata(), rtol=1e-12)
         np.testing.assert_allclose(homogeneous.get_ydata(), 0.525 * reference.get_ydata(), rtol=1e-12)
-        self.assertEqual([line.get_label() for line in (homogeneous, relocalised)],
-                         ["homogeneous, error 0.475", "relocalised, error 0.050"])
+        self.assertEqual([line.get_label() for line in (homogeneous, relocalised)], ["homogeneous", "relocalised"])
+        self.assertIn("homogeneous 0.475, relocalised 0.050", panels["(e)"].get_title())
+
+    def test_another_morphology_has_no_error(self):
+        self.write()
+        with h5py.File(self.folders[1] / "relocalized.h5", "r+") as file:
+            file["mesh/region"][:] = 1 - file["mesh/region"][:]
+        figure, panels = self.draw()
+        self.assertIn("another morphology", figure._suptitle.get_text())
+        self.assertIn("difference", panels["(b)"].get_title())
+        self.assertNotIn("error", panels["(b)"].get_title())
+
+    def test_runs_of_other_scenes_are_named(self):
+        self.write()
+        for folder, coefficient in zip(self.folders[::2], (0.5, 0.3)):
+            (folder / "run.yaml").write_text(f"friction_coefficient: {coefficient}\ntime_step: {coefficient}\n")
+        figure, panels = self.draw()
+        self.assertIn("differ: friction_coefficient 0.5 and 0.3", figure._suptitle.get_text())
+        self.assertIn("difference", panels["(c)"].get_title())
+
+    def test_another_block_is_refused(self):
+        self.write()
+        with h5py.File(self.folders[2] / "fields.h5", "r+") as file:
+            file["mesh/coordinates"][:] *= 2
+        code, said = self.run_main()
+        self.assertEqual((code, said.count("\n")), (2, 1))
+        self.assertRegex(said, "The block of .*homogeneous is not that of .*reference")
 
     def test_history_of_the_heterogeneous_run_where_it_has_the_point(self):
         self.write(points=((3, 0),))

@@ -14,7 +14,7 @@ int main() {
   recipe.composite = Composite::array;
   recipe.array = {Arrangement::square, 1, 1, 0};
   recipe.families = {family};
-  recipe.room.block.high = {1, 1};
+  recipe.room.block.upper = {1, 1};
   recipe.room.periodic = {true, true};
   recipe.room.gap = recipe.room.clearance = 0.05;
   recipe.mesh.size = {0.05, 0.05, 0.05, 0};

@@ -19,6 +19,22 @@ foreach(program slide homogenize relocalize morphology)
   endif()
 endforeach()
 
+# The command finds its package and the programs beside it, wherever it is called.
+file(MAKE_DIRECTORY "${SCRATCH}/some where")
+file(WRITE "${SCRATCH}/some where/scene.yaml" "friction: {coefficient: 0.3}\n")
+foreach(words "-h" "--version" "sweep|scene.yaml|-material_all_young|30e9,40e9|--dry-run")
+  string(REPLACE "|" ";" words "${words}")
+  execute_process(COMMAND ${SCRATCH}/all/bin/slipscale ${words} WORKING_DIRECTORY "${SCRATCH}/some where"
+    OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE code)
+  message("${said}")
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "slipscale ${words} ends with ${code}:\n${said}")
+  endif()
+endforeach()
+if(NOT said MATCHES "^2 runs")
+  message(FATAL_ERROR "the sweep that is planned has not two runs:\n${said}")
+endif()
+
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${SCRATCH}/build -G ${GENERATOR}
   -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${SCRATCH}/all)
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)

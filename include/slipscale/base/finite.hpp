@@ -1,0 +1,14 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+#include <string>
+
+namespace slipscale {
+
+/// Before numbers are written: throws RunError on all ranks when one of them, on any rank, is not finite.
+/// `what` they are, "the relocalised stress". Collective.
+void stop_unless_finite(MPI_Comm comm, std::span<const double> values, const std::string& what);
+
+}  // namespace slipscale

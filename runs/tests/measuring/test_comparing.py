@@ -1,0 +1,57 @@
+"""Two made-up runs side by side: what is the same within scatter, what differs, and by what option."""
+
+import contextlib
+import io
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+
+from slipscale import command
+from slipscale.measuring.comparing import changed_options, difference, distances, read_all
+from slipscale.reading import UnreadableRun
+from tests import fake_run
+
+
+class Compared(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folders = [Path(temporary.name) / name for name in ("one", "two", "rougher")]
+        for folder in self.folders:
+            fake_run.write_run(folder)
+        with h5py.File(self.folders[2] / "history.h5", "r+") as file:
+            file["boundary/top/tangential_force"][:] *= 1.1
+        text = (self.folders[2] / "run.yaml").read_text()
+        (self.folders[2] / "run.yaml").write_text(text.replace("friction_coefficient: 0.5", "friction_coefficient: 0.55"))
+
+    def test_differences_against_scatter(self):
+        one, two, rougher = read_all(self.folders)
+        self.assertAlmostEqual(one.window[0], 2e-4, delta=1e-7)
+        same, other = (difference(run.means["friction"], one.means["friction"]) for run in (two, rougher))
+        self.assertEqual((same.value, same.differs), (0, False))
+        self.assertAlmostEqual(other.value, 0.1 * one.means["friction"][0], delta=1e-12)
+        self.assertTrue(other.differs)
+        self.assertFalse(difference(rougher.means["normal_force"], one.means["normal_force"]).differs)
+        self.assertEqual(distances(two, one)["spectrum"][0], 0)
+        self.assertAlmostEqual(distances(rougher, one)["spectrum"][0], 0.1, delta=1e-9)
+        self.assertGreater(distances(rougher, one)["portrait"][1], 0)
+        self.assertEqual(changed_options([one, two, rougher]), {"friction_coefficient": [0.5, 0.5, 0.55]})
+
+    def test_the_command(self):
+        said, picture = io.StringIO(), self.folders[0].parent / "a b.png"
+        with contextlib.redirect_stdout(said):
+            code = command.main(["compare", *map(str, self.folders), "--picture", str(picture)])
+        self.assertEqual(code, 0)
+        for words in ("rougher less one", "differs", "the same", "friction_coefficient", "settled"):
+            self.assertIn(words, said.getvalue())
+        self.assertGreater(picture.stat().st_size, 50000)
+
+    def test_one_run_is_no_comparison(self):
+        with self.assertRaisesRegex(UnreadableRun, "two folders"):
+            read_all(self.folders[:1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,66 @@
+"""The command: its table, its manual, its mistakes; and that modules of the library are no commands."""
+
+import contextlib
+import io
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+from slipscale import command
+
+RUNS = Path(__file__).parents[1]
+
+
+def said_by(*words):
+    """Exit code, what went to stdout and to stderr."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            code = command.main(list(words))
+        except SystemExit as stop:
+            code = stop.code
+    return code, out.getvalue(), err.getvalue()
+
+
+class Command(unittest.TestCase):
+    def test_every_subcommand_has_a_manual(self):
+        code, manual, _ = said_by("-h")
+        self.assertEqual(code, 0)
+        for name in command.known():
+            self.assertIn(f"  {name} ", manual)
+            code, out, _ = said_by(name, "-h")
+            self.assertEqual(code, 0, name)
+            self.assertIn(f"slipscale {name}", out)
+            self.assertNotIn("python3 -m", out)
+
+    def test_mistakes_are_one_sentence(self):
+        for words, sentence in ((("pictur",), "is picture meant?"), (("picture", "a", "b.png", "--windw", "1", "2"),
+                                                                    "--windw is not an option; is --window meant?"),
+                                (("picture", "/nowhere", "b.png"), "There is no history.h5 in /nowhere"),
+                                (("compare", "/nowhere", "/nowhere"), "There is no history.h5"),
+                                (("table", "/nowhere"), "there is no /nowhere"), (("maps", "/nowhere", "a.png"), "/nowhere"),
+                                (("scene", "/nowhere", "a.png"), "/nowhere cannot be read"),
+                                (("cell-picture", "/nowhere", "a.png"), "There is no localization.h5"),
+                                (("adapt", "/nowhere", "/nowhere", "--output", "o", "--program", "nothing"),
+                                 "there is no program nothing")):
+            code, out, err = said_by(*words)
+            self.assertEqual((code, out, err.count("\n")), (2, "", 1), (words, err))
+            self.assertIn(sentence, err)
+            self.assertTrue(err.startswith("slipscale"), err)
+
+    def test_modules_of_the_library_are_no_commands(self):
+        for module in ("measuring.regime", "measuring.distance", "pictures.picture", "reading.mesh"):
+            done = subprocess.run([sys.executable, "-m", f"slipscale.{module}"], cwd=RUNS, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), module)
+            self.assertIn("is a library, no command", done.stderr)
+
+    def test_measuring_and_reading_draw_nothing(self):
+        listed = "import sys, slipscale.measuring.regime, slipscale.measuring.comparing, slipscale.measuring.surface_motion"
+        done = subprocess.run([sys.executable, "-c", f"{listed}; print([name for name in sys.modules if 'matplotlib' in name])"],
+                              cwd=RUNS, capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.strip(), "[]")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,150 @@
+#include "slipscale/dynamics/remarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slipscale/base/print.hpp"
+#include "slipscale/mesh/outer_boundary.hpp"
+
+namespace slipscale {
+namespace {
+
+/// Heights are told apart down to this part of the length of the edge at hand.
+constexpr double of_edge = 1e-6;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+std::array<int, 2> ascending(const std::array<int, 2>& nodes) {
+  return {std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])};
+}
+
+/// Outer edges of the body that the contact boundary does not hold.
+std::vector<OuterEdge> edges_left_out(const Mesh& mesh, const Boundary& contact) {
+  std::vector<std::array<int, 2>> held;
+  for (const BoundaryEdge& edge : contact.edges) held.push_back(ascending(edge.nodes));
+  std::ranges::sort(held);
+  std::vector<OuterEdge> left;
+  for (const OuterEdge& edge : outer_edges(mesh)) {
+    if (!std::ranges::binary_search(held, ascending(edge.nodes))) left.push_back(edge);
+  }
+  return left;
+}
+
+/// Places that are counted over the ranks.
+struct Found {
+  double count = 0;
+  double reach[3] = {nowhere, nowhere, nowhere};  ///< smallest x, −largest x, lowest height
+
+  void add(const Vector2& x, double height) {
+    reach[0] = std::min(reach[0], x[0]);
+    reach[1] = std::min(reach[1], -x[0]);
+    reach[2] = std::min(reach[2], height);
+  }
+  void share(MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, comm);
+    MPI_Allreduce(MPI_IN_PLACE, reach, 3, MPI_DOUBLE, MPI_MIN, comm);
+  }
+};
+
+/// " of boundary 'a', 'b'": those that hold one of the edges (ascending local nodes). Collective.
+std::string names_of(MPI_Comm comm, const Mesh& mesh, std::vector<std::array<int, 2>> edges) {
+  std::ranges::sort(edges);
+  std::vector<int> holds;
+  for (const Boundary& boundary : mesh.boundaries)
+    holds.push_back(std::ranges::any_of(boundary.edges, [&](const BoundaryEdge& edge) {
+      return std::ranges::binary_search(edges, ascending(edge.nodes));
+    }));
+  MPI_Allreduce(MPI_IN_PLACE, holds.data(), static_cast<int>(holds.size()), MPI_INT, MPI_MAX, comm);
+  std::string text;
+  for (std::size_t b = 0; b < holds.size(); ++b)
+    if (holds[b]) text += (text.empty() ? " of boundary '" : ", '") + mesh.boundaries[b].name + "'";
+  return text;
+}
+
+/// Edges at or below the height of the lowest contact node: what is level with it, or will meet the surface
+/// before it does.
+std::string uncovered(const SlidingBody& body) {
+  const Mesh& mesh = body.model().mesh;
+  const Boundary& contact = *mesh.find_boundary(body.scene().surface->boundary);
+  double lowest = nowhere;
+  for (int i : contact.nodes) lowest = std::min(lowest, mesh.nodes.position[i][1]);
+  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_DOUBLE, MPI_MIN, body.comm());
+  Found found;
+  std::vector<std::array<int, 2>> low_edges;
+  for (const OuterEdge& edge : edges_left_out(mesh, contact)) {
+    const int lower = mesh.nodes.number[edge.nodes[0]] < mesh.nodes.number[edge.nodes[1]] ? 0 : 1;
+    if (edge.nodes[lower] >= mesh.nodes.owned) continue;  // counted by the rank of that node
+    const Vector2 &a = mesh.nodes.position[edge.nodes[0]], &b = mesh.nodes.position[edge.nodes[1]];
+    const double tolerance = of_edge * std::hypot(edge.outward[0], edge.outward[1]);
+    const double high = std::max(a[1], b[1]) - lowest, low = std::min(a[1], b[1]) - lowest;
+    if (high > tolerance && low >= -tolerance) continue;
+    found.count += 1;
+    found.add(a, low);
+    found.add(b, low);
+    low_edges.push_back(ascending(edge.nodes));
+  }
+  found.share(body.comm());
+  if (found.count == 0) return "";
+  return format(
+      "{:g} outer edges{} between x = {:g} and {:g} m lie as low as boundary '{}' or lower but do not belong "
+      "to "
+      "it, so that nothing keeps them from sinking through the surface; give them its name where they should "
+      "touch",
+      found.count, names_of(body.comm(), mesh, low_edges), found.reach[0], -found.reach[1], contact.name);
+}
+
+std::string sunk(const SlidingBody& body) {
+  const Mesh& mesh = body.model().mesh;
+  const Boundary& contact = *mesh.find_boundary(body.scene().surface->boundary);
+  Found found;
+  std::vector<char> counted(static_cast<std::size_t>(mesh.nodes.owned), 0);
+  for (int i : body.contact().node) counted[i] = 1;  // these the surface holds
+  for (const OuterEdge& edge : edges_left_out(mesh, contact))
+    for (int i : edge.nodes) {
+      if (i >= mesh.nodes.owned || counted[i]) continue;
+      const double height =
+          mesh.nodes.position[i][1] + body.displacement_n()[i][1] - body.scene().surface->height;
+      if (height >= -of_edge * std::hypot(edge.outward[0], edge.outward[1])) continue;
+      counted[i] = 1;
+      found.count += 1;
+      found.add(mesh.nodes.position[i], height);
+    }
+  found.share(body.comm());
+  if (found.count == 0) return "";
+  return format(
+      "at the end {:g} outer nodes between x = {:g} and {:g} m that are not in the contact lie below "
+      "the "
+      "surface, the deepest by {}; name their edges like boundary '{}' where they should touch",
+      found.count, found.reach[0], -found.reach[1], engineering(-found.reach[2], "m"), contact.name);
+}
+
+std::string memory_below_step(const SlidingBody& body) {
+  const double memory = shortest_memory(body.scene().friction, body.scene().surface->speed);
+  if (!(memory > 0 && memory < body.time_step())) return "";
+  return "the relaxation time of friction, " + engineering(memory, "s") + ", is shorter than the step, " +
+         engineering(body.time_step(), "s") +
+         ", so that friction acts as Coulomb's, whose results depend on mesh and step; give a longer "
+         "-friction_length (or -friction_time), or a smaller step";
+}
+
+std::vector<std::string> those_that_speak(std::vector<std::string> texts) {
+  std::erase(texts, "");
+  return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_at_start(const SlidingBody& body) {
+  if (!body.scene().surface) return {};
+  return those_that_speak({memory_below_step(body), uncovered(body)});
+}
+
+std::vector<std::string> remarks_at_end(const SlidingBody& body) {
+  if (!body.scene().surface) return {};
+  return those_that_speak(
+      {body.has_touched() ? "" : "the body never touched the surface; nothing here is about contact",
+       sunk(body)});
+}
+
+}  // namespace slipscale
