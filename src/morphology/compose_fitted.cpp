@@ -57,20 +57,20 @@ double gap_between(const Inclusion& a, const Inclusion& b, const Room& room) {
   } else if (parts[1] == nobody) {
     what = "a tip of " + inclusion_at(composed, parts[0]);
     const Inclusion& one = inclusions[parts[0]];
-    const double sharpest = one.shape == Shape::rectangle ? one.half_width
-                                                          : one.half_width * one.half_width / one.half_length;
+    const double sharpest =
+        one.shape == Shape::rectangle ? one.half_width : one.half_width * one.half_width / one.half_length;
     fits = std::min(0.7 * size, std::max(sharpest, 0.25 * size));
   } else {
     const double gap = gap_between(inclusions[parts[0]], inclusions[parts[1]], recipe.room);
     what = inclusion_at(composed, parts[0]) + " and " + inclusion_at(composed, parts[1]) +
-           format(", {:.3g} m apart,", gap);
+           format(", {:.3g} m apart", gap);
     fits = std::min(0.9 * size, std::max(gap, 0.25 * size));
   }
-  throw UserError(
-      format("-size {:g} is too coarse for the grid in {} places of {} inclusions or pairs of them, most often "
-             "at {} ({}): two interfaces pass through one cell; give at most about {:.2g}, a larger -gap, or "
-             "-cell triangle",
-             size, places, grid.unresolved.size(), what, count, fits));
+  throw UserError(format(
+      "-size {:g} is too coarse for the grid in {} places of {} inclusions or pairs of them, most often "
+      "at {} ({}): two interfaces pass through one cell; give at most about {:.2g}, a larger -gap, or "
+      "-cell triangle",
+      size, places, grid.unresolved.size(), what, count, fits));
 }
 
 }  // namespace
@@ -103,8 +103,9 @@ void fit_layers(const Recipe& recipe, const std::vector<std::string>& regions, C
   int turn = 0;
   for (int axis = 0; axis < 2; ++axis)
     if (recipe.room.periodic[axis])
-      turn = std::gcd(turn, static_cast<int>(std::lround(composed.block.extent(axis) *
-                                                         std::abs(stack.normal[axis]) / recipe.laminate.period)));
+      turn = std::gcd(
+          turn, static_cast<int>(std::lround(composed.block.extent(axis) * std::abs(stack.normal[axis]) /
+                                             recipe.laminate.period)));
   const auto part_of = [&](int number) { return turn > 0 ? number % turn : number; };
   std::vector<Body> bodies;
   int parts = 0;

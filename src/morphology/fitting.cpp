@@ -44,6 +44,7 @@ class Fitter {
   Fit work() {
     for (std::size_t body = 0; body < bodies_.size(); ++body)
       for (int axis = 0; axis < 2; ++axis) cross(static_cast<int>(body), axis);
+    for (const Crossing& crossing : crossings_) take_at_node(crossing);
     std::erase_if(crossings_, [&](const Crossing& c) {
       const int part = bodies_[c.body].part();
       return (fit_.inside[lattice_.node(c.end(0))] == part) == (fit_.inside[lattice_.node(c.end(1))] == part);
@@ -60,6 +61,21 @@ class Fitter {
   }
 
  private:
+  /// A node through which an interface passes lies on it, whatever rounding says of the two edges there.
+  void take_at_node(const Crossing& crossing) {
+    constexpr double at_node = 1e-6;
+    for (const int upper : {0, 1}) {
+      const Place place = crossing.end(upper);
+      const int node = lattice_.node(place);
+      const double part = crossing.part - upper;
+      if (std::abs(part) > at_node || fit_.on[node] != nobody) continue;
+      fit_.on[node] = bodies_[crossing.body].part();
+      fit_.touches[node] = {crossing.body, place};
+      if (!lattice_.on_side(place, crossing.axis))
+        fit_.moved[node][crossing.axis] = part * lattice_.step(crossing.axis);
+    }
+  }
+
   double in_cells(double x, int axis) const {
     const double t = (x - lattice_.block().lower[axis]) / lattice_.step(axis);
     return std::abs(t - std::round(t)) < same ? std::round(t) : t;
@@ -72,7 +88,8 @@ class Fitter {
     const auto line = [&](double x) {
       return static_cast<int>(std::clamp(in_cells(x, across), -1.0, 1.0 * lattice_.lines(across)));
     };
-    for (int k = std::max(0, line(extent.low)); k <= std::min(line(extent.high), lattice_.lines(across) - 1); ++k) {
+    for (int k = std::max(0, line(extent.low)); k <= std::min(line(extent.high), lattice_.lines(across) - 1);
+         ++k) {
       const auto covered = bodies_[body].covers(across, lattice_.line(across, k));
       if (!covered) continue;
       const double low = std::clamp(in_cells(covered->low, axis), -1.0, cells + 1.0),
@@ -80,7 +97,8 @@ class Fitter {
       const int first = static_cast<int>(std::ceil(low)), last = static_cast<int>(std::floor(high));
       if (first > last) {  // a tip between two nodes
         const double beyond = std::min(in_cells(extent.high, across) - k, k - in_cells(extent.low, across));
-        if (beyond > deepest_lost && high > 0 && low < cells) ++fit_.unresolved[{bodies_[body].part(), nobody}];
+        if (beyond > deepest_lost && high > 0 && low < cells)
+          ++fit_.unresolved[{bodies_[body].part(), nobody}];
         continue;
       }
       Place place{};
@@ -175,7 +193,8 @@ class Fitter {
     for (const int upper : {0, 1}) {
       const Place place = crossing.end(upper);
       const int node = lattice_.node(place);
-      const bool side = lattice_.on_side(place, crossing.axis), other = lattice_.on_side(place, 1 - crossing.axis);
+      const bool side = lattice_.on_side(place, crossing.axis),
+                 other = lattice_.on_side(place, 1 - crossing.axis);
       if (!side || other || std::abs(crossing.part - upper) > thinnest || fit_.on[node] != nobody) continue;
       if (fit_.inside[node] != nobody && fit_.inside[node] != part) continue;
       fit_.on[node] = part;

@@ -3,9 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "plane.hpp"
+#include "slipscale/morphology/quality.hpp"
 #include "slipscale/solid/element.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -16,6 +18,7 @@ constexpr double good_enough =
     0.82;                          ///< step, as `step_around` counts it; the inner interfaces allow as much
 constexpr double farthest = 0.75;  ///< in squares, that a node is moved
 constexpr int most_passes = 12;
+constexpr double sharpest = 18 * std::numbers::pi / 180;  ///< angle; a cell with less counts for less
 
 }  // namespace
 
@@ -25,6 +28,7 @@ double step_around(const Fit& fit, const Place& place) {
   Eigen::Matrix<double, 2 * nodes, 2 * nodes> stiffness;
   stiffness.setZero();
   std::array<double, nodes> mass{};
+  double angle = sharpest;
   const auto index = [&](const Place& at) {
     const int column = at[0] - place[0] + 1, row = at[1] - place[1] + 1;
     return column < 0 || column >= across || row < 0 || row >= across ? -1 : row * across + column;
@@ -40,6 +44,9 @@ double step_around(const Fit& fit, const Place& place) {
         std::array<Vector2, 4> x;
         for (int i = 0; i < cell.count; ++i) x[i] = fit.position(places[cell.corners[i]]);
         const std::span<const Vector2> shape(x.data(), static_cast<std::size_t>(cell.count));
+        for (int i = 0; i < cell.count; ++i)
+          if (places[cell.corners[i]] == place)
+            angle = std::min(angle, worst_angle({shape.begin(), shape.end()}));
         const ElementStiffness local = element_stiffness(shape, elasticity);
         const auto areas = corner_areas(shape);
         for (int i = 0; i < cell.count; ++i) {
@@ -59,7 +66,8 @@ double step_around(const Fit& fit, const Place& place) {
   const double largest = Eigen::SelfAdjointEigenSolver<decltype(stiffness)>(stiffness, Eigen::EigenvaluesOnly)
                              .eigenvalues()
                              .maxCoeff();
-  return 2 * std::sqrt(elasticity(0, 0) / largest / (fit.lattice.step(0) * fit.lattice.step(1)));
+  const double step = 2 * std::sqrt(elasticity(0, 0) / largest / (fit.lattice.step(0) * fit.lattice.step(1)));
+  return step * angle / sharpest;
 }
 
 namespace {

@@ -31,7 +31,7 @@ Recipe discs(std::uint64_t seed, int across) {
   Recipe recipe;
   recipe.composite = Composite::random;
   recipe.room.block.upper = {length, length};
-  recipe.families = {family(Shape::disc, 0.3, 0.5e-3)};
+  recipe.families = {family(slipscale::Shape::disc, 0.3, 0.5e-3)};
   recipe.families[0].diameter_deviation = 0;
   recipe.mesh.cell = CellShape::grid;
   recipe.mesh.size.bulk = recipe.mesh.size.interface = length / across;
@@ -192,7 +192,11 @@ TEST(FittedGrid, RefusesWhatItCannotResolve) {
   recipe.room.gap = recipe.room.clearance = 1e-6;
   const std::string said = refusal(recipe);
   EXPECT_NE(said.find("-size 5e-05 is too coarse for the grid"), std::string::npos) << said;
-  EXPECT_NE(said.find("the inclusion at (0.0005, 0.0005) m and the inclusion at"), std::string::npos) << said;
+  EXPECT_NE(
+      said.find(
+          "the inclusion at (0.0015, 0.0005) m and the inclusion at (0.0005, 0.0005) m, 2e-05 m apart (1)"),
+      std::string::npos)
+      << said;
   EXPECT_NE(said.find("2e-05 m apart"), std::string::npos) << said;
   EXPECT_NE(said.find("give at most about 2e-05"), std::string::npos) << said;
   recipe.mesh.size.bulk = recipe.mesh.size.interface = 2e-5;

@@ -60,14 +60,13 @@ std::string text_of(const std::string& path) {
 /// Whichever byte is the last one that fits: one sentence, the older file as it was, and nothing else left.
 TEST(FullDisk, KeepsTheOlderFiles) {
   const std::string folder = scratch("full");
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder + "/mesh.msh") << "older";
   GmshModel gmsh;
   for (const CellShape cell : {CellShape::triangle, CellShape::grid}) {
     Recipe recipe = recipe_of(5);  // periodic: with the section of pairs
     recipe.mesh.cell = cell;
     const Composed composed = compose(recipe, gmsh);
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
     std::ofstream(folder + "/mesh.msh") << "older";
     for (const rlim_t bytes : {0, 100, 5000, 100000}) {
       const std::string said = refusal(recipe, composed, gmsh, folder, bytes);

@@ -9,14 +9,14 @@ namespace slipscale::testing_support {
 
 inline constexpr double length = 5e-3, size = 0.12e-3, degree = 0.017453292519943295;
 
-inline Family family(Shape shape, double fraction, double diameter) {
+inline Family family(slipscale::Shape shape, double fraction, double diameter) {
   Family f;
   f.region = "inclusion";
   f.shape = shape;
   f.fraction = fraction;
   f.diameter = diameter;
   f.diameter_deviation = 0.15;
-  if (shape == Shape::disc) return f;
+  if (shape == slipscale::Shape::disc) return f;
   f.aspect = 2;
   f.rounding = 0.6;
   f.angle_deviation = std::numeric_limits<double>::infinity();
@@ -43,21 +43,22 @@ inline Recipe recipe_of(std::uint64_t seed) {
   Recipe recipe = empty_recipe(seed);
   switch (seed % 7) {
     case 0:
-      recipe.families = {family(Shape::disc, 0.3, 0.6e-3)};
+      recipe.families = {family(slipscale::Shape::disc, 0.3, 0.6e-3)};
       break;
     case 1:
-      recipe.families = {family(Shape::ellipse, 0.25, 0.9e-3)};
+      recipe.families = {family(slipscale::Shape::ellipse, 0.25, 0.9e-3)};
       break;
     case 2:
-      recipe.families = {family(Shape::rectangle, 0.2, 1e-3)};
+      recipe.families = {family(slipscale::Shape::rectangle, 0.2, 1e-3)};
       break;
     case 3:
-      recipe.families = {family(Shape::disc, 0.2, 1e-3), family(Shape::ellipse, 0.1, 0.8e-3)};
+      recipe.families = {family(slipscale::Shape::disc, 0.2, 1e-3),
+                         family(slipscale::Shape::ellipse, 0.1, 0.8e-3)};
       recipe.families[1].region = "small";
       break;
     case 4:
     case 5:
-      recipe.families = {family(seed % 7 == 4 ? Shape::disc : Shape::ellipse, 0.25, 0)};
+      recipe.families = {family(seed % 7 == 4 ? slipscale::Shape::disc : slipscale::Shape::ellipse, 0.25, 0)};
       recipe.families[0].angle_deviation = 0;
       recipe.families[0].angle = static_cast<double>(seed % 5) * 20 * degree;
       recipe.array = {seed % 2 ? Arrangement::square : Arrangement::hexagonal, 4, 4, size};
