@@ -13,7 +13,7 @@ namespace slipscale {
 namespace {
 
 constexpr std::size_t chunk_bytes = 16384;  ///< small, because every chunk is written whole, rows or no rows
-constexpr std::size_t header_bytes = 2800;    ///< of a growing dataset: header, attributes, index, its group
+constexpr std::size_t header_bytes = 2800;  ///< of a growing dataset: header, attributes, index, its group
 constexpr std::size_t constant_bytes = 1800;  ///< of one that does not grow
 constexpr std::size_t batch_bytes = 8 << 20;  ///< a batch this large does not wait for the clock
 constexpr std::size_t index_bytes = 4096;     ///< what HDF5's index of the chunks may grow by

@@ -80,7 +80,8 @@ void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   composed.grid = {picture.columns, picture.rows};
   std::vector<int> region = regions_of(picture, recipe.image);
   composed.coloured = picture.coloured;
-  composed.despeckled = despeckle(region, picture.columns, picture.rows, recipe.room.periodic, recipe.image.despeckle);
+  composed.despeckled =
+      despeckle(region, picture.columns, picture.rows, recipe.room.periodic, recipe.image.despeckle);
   for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)
     if (std::ranges::count(region, static_cast<int>(k)) == 0)
       throw UserError("no pixel of -image_file '" + recipe.image.file + "' has the grey of region '" +
@@ -170,7 +171,8 @@ Composed compose(const Recipe& recipe, GmshModel& gmsh) {
   return composed;
 }
 
-void write_mesh(const Recipe& recipe, const Composed& composed, const GmshModel& gmsh, const std::string& path) {
+void write_mesh(const Recipe& recipe, const Composed& composed, const GmshModel& gmsh,
+                const std::string& path) {
   if (recipe.mesh.cell == CellShape::grid)
     write_grid_msh(composed.mesh, composed.block, composed.grid, recipe.room.periodic, path);
   else

@@ -17,9 +17,10 @@ namespace {
 
 void refuse_too_large(const std::string& path, double columns, double rows) {
   if (columns * rows > most_pixels)
-    throw UserError("-image_file '" + path + format("' has {:.0f} x {:.0f} pixels, more than the {:.0e} that are "
-                                                    "meshed; cut out a part, or scale it down",
-                                                    columns, rows, most_pixels));
+    throw UserError("-image_file '" + path +
+                    format("' has {:.0f} x {:.0f} pixels, more than the {:.0e} that are "
+                           "meshed; cut out a part, or scale it down",
+                           columns, rows, most_pixels));
 }
 
 GreyPicture grey_of(const std::string& path, const PngPixels& pixels) {
@@ -30,7 +31,8 @@ GreyPicture grey_of(const std::string& path, const PngPixels& pixels) {
   std::size_t transparent = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const auto sample = [&](int channel) -> double {
-      const std::size_t at = k * static_cast<std::size_t>(pixels.channels) + static_cast<std::size_t>(channel);
+      const std::size_t at =
+          k * static_cast<std::size_t>(pixels.channels) + static_cast<std::size_t>(channel);
       return wide ? pixels.bytes[2 * at] * 256 + pixels.bytes[2 * at + 1] : pixels.bytes[at];
     };
     transparent += alpha && sample(pixels.channels - 1) < white;
@@ -39,10 +41,11 @@ GreyPicture grey_of(const std::string& path, const PngPixels& pixels) {
         coloured ? (299 * sample(0) + 587 * sample(1) + 114 * sample(2)) / (1000 * white) : sample(0) / white;
   }
   if (transparent > 0)
-    throw UserError("-image_file '" + path + format("' has {} transparent pixels, which have no grey level; fill "
-                                                    "them, for example by convert {} -background black -flatten "
-                                                    "filled.png",
-                                                    transparent, path));
+    throw UserError("-image_file '" + path +
+                    format("' has {} transparent pixels, which have no grey level; fill "
+                           "them, for example by convert {} -background black -flatten "
+                           "filled.png",
+                           transparent, path));
   return picture;
 }
 
@@ -77,9 +80,11 @@ GreyPicture read_pgm(const std::string& path, bool raw) {
   refuse_too_large(path, picture.columns, picture.rows);
   file.get();
   // Seen before memory is taken: a plain sample is a digit and a blank at least.
-  const double smallest = static_cast<double>(picture.columns) * picture.rows * (raw && white < 256 ? 1 : 2) - !raw;
+  const double smallest =
+      static_cast<double>(picture.columns) * picture.rows * (raw && white < 256 ? 1 : 2) - !raw;
   std::error_code code;
-  if (static_cast<double>(std::filesystem::file_size(path, code)) - static_cast<double>(file.tellg()) < smallest)
+  if (static_cast<double>(std::filesystem::file_size(path, code)) - static_cast<double>(file.tellg()) <
+      smallest)
     refuse(path, "ends early or holds a value beyond its white");
   picture.grey.resize(static_cast<std::size_t>(picture.columns) * picture.rows);
   for (double& grey : picture.grey) {

@@ -13,7 +13,9 @@ namespace {
 /// Text in pieces of a megabyte. Numbers are the shortest that give back the same bits.
 class Text {
  public:
-  explicit Text(const std::string& path) : path_(path), file_(path, std::ios::binary) { buffer_.reserve(room); }
+  explicit Text(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    buffer_.reserve(room);
+  }
 
   template <class... Words>
   void line(const Words&... words) {
@@ -137,7 +139,8 @@ class GridFile {
     for (std::size_t region = 0; region < counts.size(); ++region)
       for (const int corners : {3, 4}) {
         if (counts[region][corners - 3] == 0) continue;
-        text_.line(2, region + 1, corners == 3 ? triangle_type : quadrilateral_type, counts[region][corners - 3]);
+        text_.line(2, region + 1, corners == 3 ? triangle_type : quadrilateral_type,
+                   counts[region][corners - 3]);
         for (std::size_t k = 0; k < mesh_.cells.size(); ++k) {
           const CompositeMesh::Cell& cell = mesh_.cells[k];
           if (cell.region != static_cast<int>(region) || cell.count != corners) continue;
@@ -159,8 +162,8 @@ class GridFile {
       const int slave = axis == 0 ? 1 : 2, master = axis == 0 ? 3 : 0;  // right of left, top of bottom
       const std::vector<int> slaves = side(slave), masters = side(master);
       text_.line(1, slave + 1, master + 1);
-      text_.line(16, 1, 0, 0, axis == 0 ? block_.width() : 0, 0, 1, 0, axis == 1 ? block_.height() : 0, 0, 0, 1, 0,
-                 0, 0, 0, 1);
+      text_.line(16, 1, 0, 0, axis == 0 ? block_.width() : 0, 0, 1, 0, axis == 1 ? block_.height() : 0, 0, 0,
+                 1, 0, 0, 0, 0, 1);
       text_.line(slaves.size());
       for (std::size_t i = 0; i < slaves.size(); ++i) text_.line(slaves[i], masters[i]);
     }

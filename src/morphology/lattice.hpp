@@ -24,13 +24,11 @@ class Lattice {
   const Box& block() const { return block_; }
   bool periodic(int axis) const { return periodic_[axis]; }
   int cells(int axis) const { return cells_[axis]; }
-  int lines(int axis) const { return lines_[axis]; }  ///< of nodes that differ
+  int lines(int axis) const { return lines_[axis]; }   ///< of nodes that differ
   double step(int axis) const { return step_[axis]; }  ///< m
   int nodes() const { return lines_[0] * lines_[1]; }
 
-  int node(const Place& place) const {
-    return wrapped(place[1], 1) * lines_[0] + wrapped(place[0], 0);
-  }
+  int node(const Place& place) const { return wrapped(place[1], 1) * lines_[0] + wrapped(place[0], 0); }
   Place place(int node) const { return {node % lines_[0], node / lines_[0]}; }
   bool has_square(const Place& low) const { return has(low, cells_); }
   bool has_node(const Place& place) const { return has(place, lines_); }

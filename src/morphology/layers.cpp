@@ -107,7 +107,8 @@ LayerStack stack(const Laminate& laminate, const Room& room, double clearance) {
     to = std::max(to, std::ceil(at));
   }
   for (double k = from; k <= to; ++k)
-    stack.layers.push_back({static_cast<int>(k - from), origin + (k - 0.5 * laminate.fraction) * laminate.period,
+    stack.layers.push_back({static_cast<int>(k - from),
+                            origin + (k - 0.5 * laminate.fraction) * laminate.period,
                             origin + (k + 0.5 * laminate.fraction) * laminate.period});
   return stack;
 }

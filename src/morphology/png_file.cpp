@@ -20,7 +20,8 @@ struct Failure {
 };
 
 [[noreturn]] void fail(png_structp png, png_const_charp message) {
-  std::snprintf(static_cast<Failure*>(png_get_error_ptr(png))->message, sizeof Failure::message, "%s", message);
+  std::snprintf(static_cast<Failure*>(png_get_error_ptr(png))->message, sizeof Failure::message, "%s",
+                message);
   png_longjmp(png, 1);
 }
 void ignore(png_structp, png_const_charp) {}

@@ -132,7 +132,10 @@ void read_laminate(const Options& options, Recipe& recipe) {
 
 void read_image(const Options& options, Recipe& recipe) {
   GreyImage& image = recipe.image;
-  image = {options.text("image_file"), options.reals("image_levels"), {}, options.real("image_pixel"),
+  image = {options.text("image_file"),
+           options.reals("image_levels"),
+           {},
+           options.real("image_pixel"),
            options.integer("image_despeckle")};
   for (std::size_t k = 1; k < image.levels.size(); ++k)
     if (image.levels[k] <= image.levels[k - 1])

@@ -60,8 +60,7 @@ Schema placement_schema() {
        "where inclusions lie; an array takes columns, rows, and the fraction or the diameter"},
       {"columns", Kind::integer, "1", required, count, "of an array, along x"},
       {"rows", Kind::integer, "1", required, count, "of an array, along y"},
-      {"seed", Kind::integer, "1", "1", natural,
-       "of random placement: another seed, another morphology"},
+      {"seed", Kind::integer, "1", "1", natural, "of random placement: another seed, another morphology"},
       {"gap", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
        "smallest distance between inclusions; auto: the edge length at interfaces"},
       {"clearance", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
@@ -109,8 +108,10 @@ Schema mesh_choice_schema() {
       {"size_growth", Kind::real, "1", "0.2", range::positive,
        "growth of the edge length per metre of distance from interface or surface"},
       {"cell", Kind::text, "", "triangle", range::one_of({"triangle", "quadrilateral", "grid"}),
-       "'grid' is rows of squares fitted to the interfaces, those on them split in two triangles: the longest "
-       "time step; quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells where the "
+       "'grid' is rows of squares fitted to the interfaces, those on them split in two triangles: the "
+       "longest "
+       "time step; quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells "
+       "where the "
        "triangles are more than 200 000)"},
       {"structured", Kind::flag, "", "false", {}, "rows and columns of equal cells; for the shape none"},
       {"worst_angle", Kind::real, "degree", "15", below_45,

@@ -77,7 +77,8 @@ double changed_part(const Composed& composed) {
 
 std::string fit_line(const Composed& composed) {
   std::string text = "fitted to the interfaces";
-  if (composed.relieved) text += format("; {} moves along sides and interfaces for a longer step", composed.relieved);
+  if (composed.relieved)
+    text += format("; {} moves along sides and interfaces for a longer step", composed.relieved);
   if (composed.squeezed)
     text += format("; {} cells are narrower, between interfaces less than a cell apart", composed.squeezed);
   if (composed.blunted)

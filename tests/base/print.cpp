@@ -6,10 +6,10 @@
 
 using namespace slipscale;
 
-TEST(Format, IsPrintfOfAnyLength) {
-  EXPECT_EQ(format("%d of %s", 3, "four"), "3 of four");
-  EXPECT_EQ(format("%s", std::string(5000, 'x').c_str()), std::string(5000, 'x'));
-  EXPECT_EQ(format("%%"), "%");
+TEST(Format, PutsValuesIntoPatternsOfAnyLength) {
+  EXPECT_EQ(format("{} of {}, {:.3g}", 3, "four", 0.12345), "3 of four, 0.123");
+  EXPECT_EQ(format("{}", std::string(5000, 'x')), std::string(5000, 'x'));
+  EXPECT_EQ(format("{{}}"), "{}");
 }
 
 TEST(Engineering, FourDigitsAndAPrefix) {

@@ -20,8 +20,7 @@ struct FallingNode {
     const StepCoefficients step = beta2_step(dt, beta2);
     const Vector2 before = u;
     u[1] += dt * w[1];
-    contact.enforce(Frictionless{}, {step.displacement, step.predictor, 0, 0}, &before, &support,
-                    {&u, &w, nullptr});
+    contact.enforce(Frictionless{}, {step, 0, 0}, &before, &support, {&u, &w, nullptr});
     return contact.force[0][1] * dt;
   }
 

@@ -235,9 +235,9 @@ TEST(LocalisationFile, LeavesNothingHalfWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder + "/localization.h5.partial"));
 }
 
-TEST(LocalisationFile, AFolderThatIsGoneIsAUserError) {
+TEST(LocalisationFile, AFolderThatIsGoneStopsTheRun) {
   const std::string folder = folder_of(cases()[0].block);
   const Mesh mesh = mesh_of(PETSC_COMM_WORLD, folder + "/block.msh");
   EXPECT_THROW(write_localisation(PETSC_COMM_WORLD, mesh, materials(mesh), solution(mesh), folder + "/none"),
-               UserError);
+               RunError);
 }

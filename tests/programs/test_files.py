@@ -32,7 +32,7 @@ class Terminal(InScratch):
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_version(self):
-        self.assertRegex(self.slide("-version").out, r"\Aslide \d+\.\d+\.\d+, PETSc 3\.\d+\.\d+\n\Z")
+        self.assertRegex(self.slide("-version").out, r"\Aslide \d+\.\d+\.\d+( \(commit [0-9a-f]{12}(-dirty)?\))?, PETSc 3\.\d+\.\d+, .*MPI.*, HDF5 1\.\d+\.\d+\n\Z")
 
     def test_log_view_has_the_stages(self):
         block(self.folder / "block.msh")

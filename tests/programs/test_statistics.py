@@ -165,7 +165,7 @@ class Refusals(InScratch):
         "a flat box": ({"fields_box": "0,0,0,1e-3"}, "-fields_box", "x = 0 to 0 m"),
         "half a box": ({"fields_box": "0,0"}, "-fields_box has 2 numbers", "x1,y1,x2,y2"),
         "a box for no frames": ({"fields_box": "0,0,1e-3,1e-3", "fields_every": None, "fields_quantities": None},
-                                "-fields_box has no effect without -fields_every or -fields_times"),
+                                "-fields_box has no effect without -fields_every, -fields_interval or -fields_times"),
         "a quantity nobody knows": ({"fields_quantities": "u,power"}, "-fields_quantities", "'power'",
                                     "u, v, stress and strain"),
         "a window after the run": ({"statistics_from": 21e-6}, "-statistics_from: 2.1e-05 s lies outside the run"),

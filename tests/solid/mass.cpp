@@ -1,5 +1,5 @@
-#include "slipscale/solid/eigenvalue_bound.hpp"
 #include "slipscale/solid/mass.hpp"
+#include "slipscale/solid/eigenvalue_bound.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@ namespace slipscale {
 struct YamlEntry {
   std::string name;                  ///< the keys above it joined with _
   std::optional<std::string> value;  ///< a list joined with commas; none where nothing stands behind the key
-  std::string doubt;                 ///< the word of the value that YAML takes for more than a text, the oddest one
-  int line = 0;                      ///< of the value's last key, from 1
+  std::string doubt;  ///< the word of the value that YAML takes for more than a text, the oddest one
+  int line = 0;       ///< of the value's last key, from 1
 };
 
 /// The text of a file, read by rank 0 of MPI_COMM_WORLD and given to all. Throws `UserError` naming `option`,

@@ -21,8 +21,8 @@ struct Composed {
   int squeezed = 0;           ///< edges of a fitted grid between two interfaces less than a cell apart
   int blunted = 0;            ///< its nodes on the sides where an interface cuts too flat for it
   int relieved = 0;           ///< moves of its nodes near the sides of the block for a longer step
-  bool coloured = false;  ///< the picture's levels are the luma of its colours
-  long despeckled = 0;    ///< pixels of the picture that went to another region
+  bool coloured = false;      ///< the picture's levels are the luma of its colours
+  long despeckled = 0;        ///< pixels of the picture that went to another region
   /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
   /// cells.
   int moved = 0, redrawn = 0, dropped = 0;
@@ -33,6 +33,7 @@ struct Composed {
 Composed compose(const Recipe& recipe, GmshModel& gmsh);
 
 /// Writes the mesh as MSH 4.1 text. Throws UserError when it cannot be written.
-void write_mesh(const Recipe& recipe, const Composed& composed, const GmshModel& gmsh, const std::string& path);
+void write_mesh(const Recipe& recipe, const Composed& composed, const GmshModel& gmsh,
+                const std::string& path);
 
 }  // namespace slipscale

@@ -32,8 +32,8 @@ long despeckle(std::vector<int>& regions, int columns, int rows, const std::arra
 /// Region of every pixel, row by row from the bottom.
 std::vector<int> regions_of(const GreyPicture& picture, const GreyImage& image);
 
-/// Writes a picture of 8-bit red, green, blue [rows][columns][3], from the top. Throws UserError when the file cannot be
-/// written.
+/// Writes a picture of 8-bit red, green, blue [rows][columns][3], from the top. Throws UserError when the
+/// file cannot be written.
 void write_png(const std::string& path, int columns, int rows, const std::vector<std::uint8_t>& rgb);
 
 }  // namespace slipscale

@@ -10,8 +10,8 @@
 
 namespace slipscale {
 
-/// history.h5: one row for each recorded step of what an `Observer` and `Probes` see; the energy terms are those
-/// of `Energy` (ledger.hpp). Lives on rank 0.
+/// history.h5: one row for each recorded step of what an `Observer` and `Probes` see; the energy terms are
+/// those of `Energy` (ledger.hpp). Lives on rank 0.
 class HistoryFile {
  public:
   /// `rows` that are expected.
