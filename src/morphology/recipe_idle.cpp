@@ -30,7 +30,8 @@ void refuse_idle_with_shape(const Options& options, Composite composite) {
   if (composite == Composite::image)
     refuse(options, {of_size, of_free_mesh, of_rows},
            {"with -shape image, whose pixels are the cells", "give another -shape", {"shape"}});
-  if (composite == Composite::homogeneous && options.flag("structured"))
+  // Beside -cell grid, -structured is itself without effect: asking for it would put it into the results.
+  if (composite == Composite::homogeneous && options.text("cell") != "grid" && options.flag("structured"))
     refuse(options, {of_free_mesh},
            {"with -structured, whose cells are all equal", "leave out -structured", {"structured"}});
 }
