@@ -92,7 +92,9 @@ std::vector<Typed> meshes(bool has_interface) {
   std::vector<Typed> all{block + Typed{{"cell", "grid"}, {"worst_angle", "10"}}};
   for (const char* cell : {"triangle", "quadrilateral"}) {
     all.push_back(block + Typed{{"cell", cell}});
-    all.push_back(block + Typed{{"cell", cell}, {"size_surface", "1e-4"}, {"size_growth", "0.1"}});
+    Typed graded{{"cell", cell}, {"size_surface", "1e-4"}, {"size_growth", "0.1"}};
+    if (!has_interface) graded["structured"] = "false";
+    all.push_back(block + graded);
     if (has_interface)
       all.push_back(block + Typed{{"cell", cell}, {"size_interface", "1e-4"}, {"size_growth", "0.1"}});
     else
@@ -118,7 +120,7 @@ std::vector<Typed> scenes(const std::string& periodic) {
 /// Every option that -help lists, with each word it may take and a number that most of them take.
 std::vector<std::pair<std::string, std::string>> choices() {
   std::vector<std::pair<std::string, std::string>> all;
-  for (const std::string& placeholder : {"large", "small"})
+  for (const std::string placeholder : {"large", "small"})
     for (const Option& option : recipe_schema()) {
       const std::string name = names_in({option}, "", placeholder).empty()
                                    ? "run_mesh"
@@ -175,12 +177,13 @@ TEST(RecipeChoices, OfALaterPlaceHaveTheLastWord) {
     }
 }
 
-/// And so does the one word of it that says what is drawn, or of which cells.
+/// And so does the one word of it that says what is drawn, or of which cells and how large.
 TEST(RecipeChoices, OfALaterWordSetAsideWhatItMakesIdle) {
   for (const Typed& earlier : scenes("x")) {
-    if (earlier == output + Typed{{"periodic", "x"}} + image) continue;  // has no block
-    for (const Typed& word : {Typed{{"shape", "none"}}, Typed{{"shape", "none"}, {"cell", "grid"}},
-                              Typed{{"shape", "none"}, {"cell", "triangle"}, {"structured", "true"}}}) {
+    if (earlier.contains("image_file")) continue;  // has no block
+    for (const Typed& word :
+         {Typed{{"shape", "none"}}, Typed{{"shape", "none"}, {"cell", "grid"}},
+          Typed{{"shape", "none"}, {"cell", "triangle"}, {"structured", "true"}}, Typed{{"size", "1e-4"}}}) {
       Reading both;
       ASSERT_NO_THROW(both = read({earlier, word})) << told(earlier) << "\nthen" << told(word);
       EXPECT_EQ(both.refusal, "") << told(earlier) << "\nthen" << told(word);
