@@ -11,8 +11,8 @@ namespace slipscale {
 void start_alone();
 
 /// Signals by which a terminal, a shell or a scheduler ends or keeps a run (hang-up, quit, terminate, a
-/// closed pipe) mean after PETSc's start what they meant before it, nohup's choice included: its handlers
-/// answer them with a dump. Keeps from construction to destruction.
+/// closed pipe) mean after the start of MPI and PETSc what they meant before it, nohup's choice included: the
+/// libraries' handlers answer them with a dump, or swallow them. Keeps from construction to destruction.
 class KeptSignals {
  public:
   KeptSignals();

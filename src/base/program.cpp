@@ -108,6 +108,13 @@ void silence_leftovers() {
   if (!given) petsc(PetscOptionsSetValue(nullptr, "-options_left", "no"));
 }
 
+/// The libraries under MPI have handlers of their own: UCX takes the hang-up for its debugger.
+void start_mpi(int& argc, char**& argv) {
+  const KeptSignals kept;
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+}
+
 /// Where PETSc does not start it is for its options: everything else is as at every start.
 void start_petsc(std::vector<char*>& arguments) {
   int argc = static_cast<int>(arguments.size()) - 1;
@@ -197,8 +204,7 @@ void end_reading(const Options& options) {
 int run_program(int argc, char** argv, const Program& program) {
   set_program(program.name, program.commit);
   start_alone();
-  int provided = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  start_mpi(argc, argv);
   int code = 0;
   const int fault = guarded(program.name, [&] { code = answer(argc, argv, program); });
   MPI_Finalize();

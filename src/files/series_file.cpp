@@ -132,32 +132,50 @@ void SeriesFile::flush() {
   const auto start = Clock::now();
   guarded("", [&] {
     if (!file_.open() || (rows_ == written_ && constants_.empty())) return;
-    reserve();
+    hsize_t rows = rows_ - written_;
+    const std::string full = reserve_for(rows);
     write_constants();
-    for (Column& column : columns_) write_batch(column);
+    for (Column& column : columns_) write_batch(column, rows);
     hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
-    written_ = rows_;
+    written_ += rows;
     flushed_ = true;
+    if (!full.empty()) throw LibraryError(full);
   });
   pause_ = std::max(seconds_, seconds_since(start) / writing_share);
   last_ = Clock::now();
 }
 
-void SeriesFile::reserve() {
+/// Sets room aside for `rows` rows, or for as many as a full disk takes: half, a quarter, … The reason why
+/// not for all; empty when all fit.
+std::string SeriesFile::reserve_for(hsize_t& rows) {
+  std::string reason;
+  while (true) {
+    try {
+      reserve(rows);
+      return reason;
+    } catch (const LibraryError& error) {
+      if (rows < 2) throw;
+      reason = error.what();
+      rows /= 2;
+    }
+  }
+}
+
+void SeriesFile::reserve(hsize_t rows) {
   hsize_t size = 0, bytes = 0;
   hdf5(H5Fget_filesize(file_, &size), "size");
   for (const Column& column : columns_)
-    bytes += column.batch.size() + column.chunk + column.bytes + index_bytes;
+    bytes += rows * column.bytes + column.chunk + column.bytes + index_bytes;
   if (written_ == 0) bytes += header_bytes * columns_.size();
   for (const Constant& each : constants_) bytes += constant_bytes + sizeof(double) * each.values.size();
   reserve_space(path_, size, bytes);
 }
 
-void SeriesFile::write_batch(Column& column) {
+void SeriesFile::write_batch(Column& column, hsize_t rows) {
   const std::string& what = column.path;
-  const auto shape = rows_of(rows_, column.row_shape);
+  const auto shape = rows_of(written_ + rows, column.row_shape);
   hdf5(H5Dset_extent(column.dataset, shape.data()), what);
-  const auto count = rows_of(rows_ - written_, column.row_shape);
+  const auto count = rows_of(rows, column.row_shape);
   std::vector<hsize_t> start(count.size(), 0);
   start[0] = written_;
   const Hdf5Space target(hdf5(H5Dget_space(column.dataset), what));

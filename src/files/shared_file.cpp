@@ -28,6 +28,21 @@ void write_rows(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t begin,
   hdf5(H5Dwrite(dataset, type, source, target, H5P_DEFAULT, rows), what);
 }
 
+/// What HDF5 remembers of datasets that are long written, it remembers up to a size of its own; views take
+/// twenty to forty times what it counts, so that a hundred frames held as much memory as ten of their frames.
+void forget_soon(hid_t file) {
+  constexpr std::size_t remembered = 128 << 10;  ///< bytes as HDF5 counts; a frame's dataset headers are 6 kB
+  H5AC_cache_config_t config{};
+  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  hdf5(H5Fget_mdc_config(file, &config), "cannot read the cache's size");
+  config.set_initial_size = 1;
+  config.initial_size = config.max_size = config.min_size = remembered;
+  config.incr_mode = H5C_incr__off;
+  config.flash_incr_mode = H5C_flash_incr__off;
+  config.decr_mode = H5C_decr__off;
+  hdf5(H5Fset_mdc_config(file, &config), "cannot set the cache's size");
+}
+
 /// Of a dataset of this shape one entry of every row.
 Hdf5Space column_of(const std::vector<hsize_t>& shape, std::size_t entry, const std::string& what) {
   Hdf5Space space(hdf5(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), what));
@@ -72,7 +87,9 @@ SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, App
     : comm_(comm), root_(is_root(comm)), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
   write_together(comm_, path_, [&] {
-    if (root_) file_ = create_file(name());
+    if (!root_) return;
+    file_ = create_file(name());
+    forget_soon(file_);
   });
   try {
     reserve(bytes);

@@ -11,6 +11,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double counts = 0.01;  ///< parts below this do not name a regime, and drifts below it are none
 constexpr double same_amplitude = 1.25;
+constexpr double growth = 1.5;              ///< of an amplitude from half to half, beyond chance and beating
+constexpr double rounding_of_sums = 1e-10;  ///< of the mean: forces are sums over nodes, steps over steps
 constexpr double errors_of_doubt = 3;
 
 double plain_mean(std::span<const double> rows) {
@@ -72,7 +74,8 @@ Settling settling(std::span<const double> signal) {
   const bool same_mean = std::abs(step) <= counts * std::abs(mean) || std::abs(step) <= doubt;
   const bool vibrates = std::max(before, after) > counts * std::abs(mean);
   const bool same_size = std::max(before, after) <= same_amplitude * std::min(before, after);
-  found.settled = same_mean && (!vibrates || same_size);
+  const bool grows = after > growth * before && after > rounding_of_sums * std::abs(mean);
+  found.settled = same_mean && !grows && (!vibrates || same_size);
   return found;
 }
 

@@ -167,6 +167,32 @@ TEST(SeriesFile, AFullDiskIsAFaultAndLeavesAReadableFile) {
   EXPECT_GE(read_back::everything(path).at("u").shape[0], 10u);
 }
 
+// A short run is one batch: what it computed must not be lost whole for the rows that do not fit.
+TEST(SeriesFile, AFullDiskTakesTheFirstRowsOfABatch) {
+  const std::string path = scratch("first_rows.h5");
+  {
+    SeriesFile file(path, 1000);
+    const int time = file.add("/time", {}, "s", "time"), u = file.add("/u", {1000}, "m", "displacement");
+    for (int n = 0; n < 100; ++n) {
+      file.append(time, static_cast<double>(n));
+      file.append(u, std::vector<double>(1000, n).data());
+      file.end_row();
+    }
+    const read_back::SmallDisk disk(400000);
+    file.close();
+    EXPECT_NE(file.fault().find("File too large"), std::string::npos) << file.fault();
+  }
+  const auto all = read_back::everything(path);
+  const hsize_t rows = all.at("u").shape[0];
+  EXPECT_GE(rows, 20u);  // of 8 kB each
+  EXPECT_LT(rows, 50u);
+  ASSERT_EQ(all.at("time").shape[0], rows);
+  for (hsize_t n = 0; n < rows; ++n) {
+    ASSERT_EQ(all.at("time").values[n], static_cast<double>(n));
+    ASSERT_EQ(all.at("u").values[1000 * n + 999], static_cast<double>(n));
+  }
+}
+
 TEST(SeriesFile, CanBeReadWhileItIsWrittenAndAfterAKill) {
   const std::string path = scratch("killed.h5");
   std::string program = SERIES_WRITER, argument = path;

@@ -127,7 +127,10 @@ class SmallDisk(InBlock):
                     contact = datasets(disk / "out" / "contact.h5")
                     self.assertEqual(len({len(contact[name]) for name in ("time", "u", "gap", "status")}), 1)
                     history = datasets(disk / "out" / "history.h5")
-                    np.testing.assert_array_equal(history["step"], history["step"][1] * np.arange(len(history["step"])))
+                    every = scene.get("history_every", SCENE["history_every"])
+                    np.testing.assert_array_equal(history["step"], every * np.arange(len(history["step"])))
+                    # Of a batch that does not fit the first rows are kept, so that one file or the other fills the disk.
+                    self.assertGreater(len(history["step"]) + len(contact["time"]), 2)
                     if "fields_every" in scene:
                         frames = len(datasets(disk / "out" / "fields.h5")["time"])
                         shown = (disk / "out" / "fields.xdmf").read_text().count("<Time ")

@@ -148,10 +148,17 @@ class SceneText(InScratch):
         return process
 
     def test_signals_end_without_a_dump(self):
-        no_core = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_CORE, (0, 0))}
-        for number in (signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM, signal.SIGINT):
+        ending = (signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM, signal.SIGINT)
+
+        def as_in_a_terminal():
+            """Whatever this test inherits from nohup or a shell's background; and no core."""
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            for number in ending:
+                signal.signal(number, signal.SIG_DFL)
+
+        for number in ending:
             with self.subTest(number):
-                process = self.start(**no_core)
+                process = self.start("-output_folder", f"signal_{int(number)}", preexec_fn=as_in_a_terminal)
                 process.send_signal(number)
                 out, err = process.communicate(timeout=20)
                 self.assertEqual((process.returncode, err), (-number, ""))

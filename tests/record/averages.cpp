@@ -115,6 +115,22 @@ TEST(Settling, OfWhatSlidesSteadily) {
   EXPECT_TRUE(settling(signal).settled);
 }
 
+// An instability grows from nothing, long before it is 1 % of friction; rounding of no vibration is none.
+TEST(Settling, SeesASmallVibrationThatGrows) {
+  const auto grown = [](double first, double second) {
+    std::vector<double> signal = wave(500, 0.4, first);
+    const std::vector<double> later = wave(500, 0.4, second);
+    signal.insert(signal.end(), later.begin(), later.end());
+    return settling(signal).settled;
+  };
+  for (const double amplitude : {1e-3, 1e-6, 1e-9}) {
+    EXPECT_FALSE(grown(amplitude, 1.6 * amplitude)) << amplitude;
+    EXPECT_FALSE(grown(0, amplitude)) << amplitude;
+    EXPECT_TRUE(grown(amplitude, 1.4 * amplitude)) << amplitude;
+  }
+  EXPECT_TRUE(grown(1e-12, 2e-11));
+}
+
 TEST(Regime, HasTheNamesOfTheLiterature) {
   EXPECT_EQ(regime(0, 0, 0.001, 0.4, 0), "steady");
   EXPECT_EQ(regime(0, 0, 0.001, 0.4, 0.02), "slip");  // a wave that takes power

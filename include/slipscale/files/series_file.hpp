@@ -14,9 +14,9 @@ namespace slipscale {
 /// Lives on one rank. Rows gather in memory and go to the disk in batches, all datasets by the same number of
 /// rows, so that a running job can be plotted and a killed one read: serial driver, default file format, no
 /// file locking. Room is set aside before each batch, so that a full disk, or a file that somebody removed,
-/// is found before HDF5 stumbles over it. Nothing here throws, because the other ranks would wait for ever: a
-/// failure is kept in `fault`, which the caller shares with them (`throw_together`) when it suits, and after
-/// which all members do nothing.
+/// is found before HDF5 stumbles over it; of a batch that does not fit the first rows are kept. Nothing here
+/// throws, because the other ranks would wait for ever: a failure is kept in `fault`, which the caller shares
+/// with them (`throw_together`) when it suits, and after which all members do nothing.
 class SeriesFile {
  public:
   enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
@@ -80,9 +80,10 @@ class SeriesFile {
   template <class Action>
   void guarded(const char* what, Action action);
   void append_bytes(int id, const void* row, Storage storage);
-  void reserve();
+  std::string reserve_for(hsize_t& rows);
+  void reserve(hsize_t rows);
   void write_constants();
-  void write_batch(Column& column);
+  void write_batch(Column& column, hsize_t rows);
 
   std::string path_, fault_;
   Hdf5File file_;

@@ -38,7 +38,8 @@ struct Settling {
 
 /// Settled: the means of the halves differ by less than 1 % of the mean or by less than three standard errors
 /// of their difference, and the standard deviations by less than a quarter, where they are above 1 % of the
-/// mean.
+/// mean. An amplitude that grows by more than a half is not settled however small it is, for an instability
+/// begins so; below 1e-10 of the mean it is rounding.
 Settling settling(std::span<const double> signal);
 
 /// What the contact does over time, after Peillex, Baillet, Berthier (IJTC2007-44438): "slip" or

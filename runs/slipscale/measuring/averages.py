@@ -11,6 +11,8 @@ import numpy as np
 BLOCKS = 10  # into which the window is cut for standard errors
 COUNTS = 0.01  # of the mean: drifts and amplitudes below it are none
 SAME_AMPLITUDE = 1.25
+GROWTH = 1.5  # of an amplitude from half to half, beyond chance and beating
+ROUNDING_OF_SUMS = 1e-10  # of the mean: forces are sums over nodes, steps over steps
 ERRORS_OF_DOUBT = 3
 
 
@@ -67,7 +69,9 @@ class Settling:
 
 def settling(rows):
     """Settled: the means of the halves differ by less than 1 % of the mean or by less than three standard errors of their
-    difference, and the standard deviations by less than a quarter, where they are above 1 % of the mean."""
+    difference, and the standard deviations by less than a quarter, where they are above 1 % of the mean. An amplitude
+    that grows by more than a half is not settled however small it is, for an instability begins so; below 1e-10 of the
+    mean it is rounding."""
     half = len(rows) // 2
     first, second = rows[:half], rows[len(rows) - half:]
     mean, step = np.mean(rows), np.mean(second) - np.mean(first)
@@ -76,5 +80,6 @@ def settling(rows):
     same_mean = abs(step) <= COUNTS * abs(mean) or abs(step) <= doubt
     vibrates = max(before, after) > COUNTS * abs(mean)
     same_size = max(before, after) <= SAME_AMPLITUDE * min(before, after)
+    grows = after > GROWTH * before and after > ROUNDING_OF_SUMS * abs(mean)
     return Settling(float(step / abs(mean)) if mean != 0 else 0.0, float(after / before) if before > 0 else 1.0,
-                    bool(same_mean and (not vibrates or same_size)))
+                    bool(same_mean and not grows and (not vibrates or same_size)))

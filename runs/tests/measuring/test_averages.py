@@ -51,7 +51,16 @@ class Settled(unittest.TestCase):
     def test_growth_drift_and_steady_sliding(self):
         self.assertFalse(settling(0.4 + 0.05 * np.exp(self.time) * np.sin(90 * self.time)).settled)
         self.assertFalse(settling(0.4 + 0.05 * self.time).settled)
-        self.assertTrue(settling(0.4 + 1e-4 * np.exp(self.time) * np.sin(90 * self.time)).settled)  # nothing to speak of
+
+    def test_a_small_vibration_that_grows_has_not_settled(self):
+        def grown(amplitude, rate):
+            return settling(0.4 + amplitude * np.exp(rate * self.time) * np.sin(90 * self.time)).settled
+
+        for amplitude in (1e-4, 1e-7):
+            self.assertFalse(grown(amplitude, 1), amplitude)  # by e from half to half
+            self.assertTrue(grown(amplitude, 0.2), amplitude)  # nothing to speak of
+            self.assertTrue(grown(amplitude, -1), amplitude)
+        self.assertTrue(grown(1e-13, 1))  # rounding
 
 
 class Window(unittest.TestCase):
