@@ -23,10 +23,12 @@ export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 mpirun -n "$ranks" build/release/slide -options_file_yaml runs/first/scene.yaml -output_folder "$out"
 
 build/release/slipscale picture "$out" "$out/picture.png"
+build/release/slipscale report "$out" > /dev/null
 
 cat <<END
 
 The picture:  $out/picture.png
+On one page:  $out/report.html
 The block:    $out/mesh/morphology.png and morphology.yaml
 In numbers:   $out/summary.yaml
 In ParaView:  $out/fields.xdmf

@@ -158,10 +158,6 @@ void CellSolver::choose_solver() {
   }
   petsc(KSPSetType(ksp, KSPCG));
   petsc(PCSetType(pc, PCGAMG));
-  // Weak couplings are left out of the aggregates: without this a contrast of 1e4 takes five times the
-  // iterations.
-  PetscReal threshold = 0.05;
-  petsc(PCGAMGSetThreshold(pc, &threshold, 1));
 }
 
 void CellSolver::complete_choice() {
@@ -179,6 +175,12 @@ void CellSolver::complete_choice() {
                             PETSC_DEFAULT));
   if (is(reinterpret_cast<PetscObject>(pc), PCCHOLESKY) && !given("-pc_factor_mat_solver_type"))
     petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  if (is(reinterpret_cast<PetscObject>(pc), PCGAMG) && !given("-pc_gamg_threshold")) {
+    // Weak couplings are left out of the aggregates: without this a contrast of 1e4 takes five times the
+    // iterations.
+    PetscReal threshold = 0.05;
+    petsc(PCGAMGSetThreshold(pc, &threshold, 1));
+  }
 }
 
 bool CellSolver::is_direct() const {

@@ -78,8 +78,8 @@ bool is_isotropic(const Eigen::Matrix3d& c) {
 }
 
 bool nearly_incompressible(const Eigen::Matrix3d& stiffness) {
-  constexpr double locking = 0.49;
-  return engineering_constants(stiffness).poisson > locking;
+  constexpr double locking = 0.49, rounding = 1e-9;
+  return engineering_constants(stiffness).poisson > locking + rounding;
 }
 
 std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases) {

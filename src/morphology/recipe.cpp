@@ -76,12 +76,13 @@ MeshSize read_size(const Options& options, bool has_interface) {
   size.bulk = options.real("size");
   size.interface = has_interface ? length_or(options, "size_interface", size.bulk) : size.bulk;
   size.surface = length_or(options, "size_surface", size.bulk);
+  std::vector<std::string> causes{"size", "size_interface", "size_surface"};
+  if (!has_interface) causes.emplace_back("shape");  // has set -size_interface aside
   if (size.interface < size.bulk || size.surface < size.bulk)
     size.growth = options.real("size_growth");
   else
     options.refuse_idle({"size_growth"}, {"with edges of one length",
-                                          "give a smaller -size_interface or -size_surface",
-                                          {"size_interface", "size_surface"}});
+                                          "give a smaller -size_interface or -size_surface", causes});
   return size;
 }
 

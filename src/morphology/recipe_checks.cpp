@@ -74,6 +74,10 @@ std::set<std::string> read_family_names(Options& options) {
     options.refuse_both("shape", word.substr(1));
     if (options.given(word.substr(1))) count.insert(family_in(word));
   }
+  for (const std::string& name : names)
+    if (!count.contains(name))
+      options.refuse_idle(names_in(recipe_schema(), "families_", name),
+                          {"beside a later -shape", "give it after -shape", {"shape"}});
   return count;
 }
 

@@ -19,6 +19,14 @@ void refuse(const Options& options, const std::vector<Names>& groups, const Idle
   for (const Names& names : groups) options.refuse_idle(names, idle);
 }
 
+/// The options that say what is drawn: a shape, or families.
+Names saying_what(const std::set<std::string>& families) {
+  Names names{"shape"};
+  for (const std::string& family : families)
+    for (const char* key : {"_shape", "_fraction"}) names.push_back("families_" + family + key);
+  return names;
+}
+
 /// With a picture, a laminate or a homogeneous block.
 void refuse_idle_with_shape(const Options& options, Composite composite) {
   const std::string shape = options.text("shape");
@@ -30,7 +38,8 @@ void refuse_idle_with_shape(const Options& options, Composite composite) {
   if (composite == Composite::image)
     refuse(options, {of_size, of_free_mesh, of_rows},
            {"with -shape image, whose pixels are the cells", "give another -shape", {"shape"}});
-  if (composite == Composite::homogeneous && options.flag("structured"))
+  // Beside -cell grid, -structured is itself without effect: asking for it would put it into the results.
+  if (composite == Composite::homogeneous && options.text("cell") != "grid" && options.flag("structured"))
     refuse(options, {of_free_mesh},
            {"with -structured, whose cells are all equal", "leave out -structured", {"structured"}});
 }
@@ -39,7 +48,8 @@ void refuse_idle_with_shape(const Options& options, Composite composite) {
 
 void refuse_idle_with(const Options& options, Composite composite, const std::set<std::string>& families) {
   if (composite != Composite::homogeneous && composite != Composite::image)
-    refuse(options, {of_rows}, {"with interfaces inside the block", "give -shape none", {"shape"}});
+    refuse(options, {of_rows},
+           {"with interfaces inside the block", "give -shape none", saying_what(families)});
   if (composite != Composite::random && composite != Composite::array)
     return refuse_idle_with_shape(options, composite);
   for (const std::string& name : families)
@@ -48,7 +58,7 @@ void refuse_idle_with(const Options& options, Composite composite, const std::se
             "give it as -families_" + name + "_<key>",
             {"families_" + name + "_shape", "families_" + name + "_fraction"}});
   refuse(options, {of_laminate, of_image},
-         {"with inclusions", "give -shape laminate or -shape image", {"shape"}});
+         {"with inclusions", "give -shape laminate or -shape image", saying_what(families)});
   if (composite == Composite::random)
     options.refuse_idle({"columns", "rows"},
                         {"with -arrangement random", "give -arrangement square", {"arrangement"}});

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "cells_checks.hpp"
-#include "slipscale/base/parallel.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;
@@ -17,26 +14,6 @@ Mesh block(bool along_x, bool along_y) {
   block.periodic_x = along_x;
   block.periodic_y = along_y;
   return block_mesh(block);
-}
-
-/// Two squares of 2 × 2 cells, 1 m apart.
-Mesh two_squares() {
-  const std::string file = scratch("apart.msh");
-  if (is_root(PETSC_COMM_WORLD)) {
-    std::ofstream out(file);
-    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"matrix\"\n$EndPhysicalNames\n"
-           "$Nodes\n18\n";
-    for (int i = 0; i < 18; ++i)
-      out << i + 1 << ' ' << 0.5 * (i % 3) + (i < 9 ? 0 : 2) << ' ' << 0.5 * (i % 9 / 3) << " 0\n";
-    out << "$EndNodes\n$Elements\n8\n";
-    for (int cell = 0; cell < 8; ++cell) {
-      const int a = 1 + 9 * (cell / 4) + 3 * (cell % 4 / 2) + cell % 2;
-      out << cell + 1 << " 3 2 1 1 " << a << ' ' << a + 1 << ' ' << a + 4 << ' ' << a + 3 << '\n';
-    }
-    out << "$EndElements\n";
-  }
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return read_mesh(PETSC_COMM_WORLD, {file});
 }
 
 void expect_refused(const Mesh& mesh, CellBoundary boundary, const std::vector<std::string>& words) {
@@ -64,12 +41,6 @@ TEST(CellRefusals, TheOthersNeedABoundary) {
                  {"-cell_boundary kubc", torus.file, "outer boundary", "-cell_boundary periodic"});
   expect_refused(torus, CellBoundary::subc,
                  {"-cell_boundary subc", torus.file, "outer boundary", "-cell_boundary periodic"});
-}
-
-TEST(CellRefusals, PartsMustNotFloat) {
-  const Mesh mesh = two_squares();
-  for (const CellBoundary boundary : {CellBoundary::kubc, CellBoundary::subc})
-    expect_refused(mesh, boundary, {mesh.file, "2 parts", "share no node"});
 }
 
 /// The reason, the case, and what to try.
