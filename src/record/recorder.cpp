@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "astray.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/record/stress_measures.hpp"
@@ -141,6 +142,7 @@ void Recorder::observe(long n) {
   }
   record_cells(n);
   share_faults();
+  last_sound_ = n;
   const double relative = seen.energy.flowed > 0 ? std::abs(seen.energy.residual) / seen.energy.flowed : 0;
   largest_residual_ = std::max(largest_residual_, relative);
   progress_.note(seen.friction, relative);
@@ -159,9 +161,11 @@ void Recorder::record_cells(long n) {
     Eigen::Vector3d::Map(strain_[cell].data()) =
         compliance_[cells.region[cell]] * Eigen::Vector3d::Map(stress_[cell].data());
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };
-  if (frame)
+  if (frame) {
     fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), rows(stress_),
                    rows(strain_));
+    last_frame_ = n;
+  }
   if (sample) statistics_->add(body_.time(), stress_, strain_);
 }
 
@@ -169,13 +173,15 @@ void Recorder::check(const Observation& seen) const {
   const Energy& e = seen.energy;
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
   if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
-  stop(format("step {} (t = {:g} s): ", seen.step, seen.time) +
-       (finite ? format("the energy balance misses {:g} J/m of {:g} J/m that flowed", e.residual, e.flowed)
-               : std::string("the state is no longer finite")));
+  const Astray why = explain(e, most_displaced(body_), time_, history_every_);
+  stop(format("step {} (t = {:g} s): ", seen.step, seen.time) + why.fault, why.cure);
 }
 
-void Recorder::stop(const std::string& fault) const {
-  std::string kept = "the rows before it are kept in '" + folder_.path() + "'";
+void Recorder::stop(const std::string& fault, const std::string& cure) const {
+  std::string kept = last_sound_ < 0 ? "nothing was recorded before it"
+                                     : format("what was recorded up to step {}", last_sound_);
+  if (last_frame_ >= 0) kept += format(", with a last frame of step {},", last_frame_);
+  if (last_sound_ >= 0) kept += " is kept in '" + folder_.path() + "'";
   if (statistics_ && statistics_->samples() > 0) {
     kept += format(", and the statistics of {} samples", statistics_->samples());
     try {
@@ -184,7 +190,7 @@ void Recorder::stop(const std::string& fault) const {
       kept = error.what();
     }
   }
-  throw RunError(fault + "; " + kept + ". Try a smaller -time_safety");
+  throw RunError(fault + "; " + kept + ". " + cure);
 }
 
 void Recorder::share_faults() {

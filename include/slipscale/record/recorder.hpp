@@ -51,7 +51,7 @@ class Recorder {
   void record_cells(long n);
   std::string cadences() const;  ///< for the forecast
   void check(const Observation& seen) const;
-  [[noreturn]] void stop(const std::string& fault) const;
+  [[noreturn]] void stop(const std::string& fault, const std::string& cure) const;
   void share_faults();
 
   const SlidingBody& body_;
@@ -75,8 +75,9 @@ class Recorder {
   const std::vector<Eigen::Matrix3d> compliance_;       ///< [regions], 1/Pa
   std::vector<std::array<double, 3>> stress_, strain_;  ///< [local cells]
   Progress progress_;
-  std::vector<Observation> rows_;  ///< rank 0: what the summary needs, contact nodes left out
-  double largest_residual_ = 0;    ///< relative to what flowed
+  std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
+  long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written
+  double largest_residual_ = 0;             ///< relative to what flowed
   std::chrono::steady_clock::time_point start_;
 };
 
