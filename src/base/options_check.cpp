@@ -191,7 +191,9 @@ void Options::refuse_unknown() const {
     refuse_if_unknown(entry.name, true);
     if (match(entry.name).option || names::petsc_system(entry.name)) continue;
     const std::string near = names::meant(entry.name, schema_, names_).name;
-    throw UserError("-" + entry.name + " was given but neither " + program_ + " nor PETSc has read it" +
+    const std::string place = PlacesOfPetsc(false).of(entry.name);
+    throw UserError("-" + entry.name + " was given" + (place.empty() ? "" : " in " + place) +
+                    " but neither " + program_ + " nor PETSc has read it" +
                     (near.empty() ? "; remove it, or correct its name" : "; did you mean " + near + "?"));
   }
 }

@@ -122,6 +122,9 @@ std::string quoted_line(const std::string& text, int line) {
   if (begin == std::string::npos || begin >= text.size()) return "";
   std::string shown = text.substr(begin, std::min<std::size_t>(text.find('\n', begin) - begin, 240));
   shown.erase(0, std::min(shown.find_first_not_of(" \t\r"), shown.size()));
+  // What ends a message or a terminal's line, and the marks of UTF-16.
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return c < 0x20 || c == 0x7F || c >= 0xFE; }, '?');
   if (shown.size() > 60) {
     shown.resize(60);
     // Not in the middle of a letter.

@@ -4,10 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
+#include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
 namespace {
@@ -37,7 +41,27 @@ void write_value(hid_t object, const std::string& name, hid_t type, hid_t space,
 
 void keep_hdf5_messages() { (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+namespace {
+
+/// HDF5 cannot be ended in good order after it has failed to write the first bytes of a new file: their place
+/// is set aside before it sees the file.
+void make_place(const std::string& path) {
+  constexpr std::uint64_t first_bytes = 32768;
+  std::FILE* const file = std::fopen(path.c_str(), "w");
+  if (!file) throw LibraryError("cannot create the file: " + std::string(std::strerror(errno)));
+  (void)std::fclose(file);
+  try {
+    reserve_space(path, 0, first_bytes);
+  } catch (const LibraryError&) {
+    (void)std::remove(path.c_str());
+    throw;
+  }
+}
+
+}  // namespace
+
 Hdf5File create_file(const std::string& path) {
+  make_place(path);
   const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
   hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
   Hdf5File file(hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));

@@ -1,6 +1,7 @@
 #include "slipscale/files/disk_space.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "failure.hpp"
 #include "read_back.hpp"
 #include "slipscale/base/error.hpp"
+#include "slipscale/files/hdf5.hpp"
 
 using namespace slipscale;
 using testing_support::failure_of;
@@ -65,4 +67,18 @@ TEST(FillWithZeros, LeavesTheFileAsItWasOnAFullDisk) {
   std::ofstream probe("/dev/full");
   if (!probe) GTEST_SKIP() << "no /dev/full here";
   EXPECT_FALSE(failure_of<LibraryError>([&] { fill_with_zeros("/dev/full", 10); }).empty());
+}
+
+/// HDF5 must not see such a file: after it has failed to write the first bytes it crashes at the end.
+TEST(NewFile, LeavesNothingWhereItsFirstBytesHaveNoRoom) {
+  const std::string path = scratch("no-room.h5");
+  rlimit whole{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &whole), 0);
+  rlimit small = whole;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(create_file(path), LibraryError);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &whole), 0);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_NO_THROW(create_file(path));
 }

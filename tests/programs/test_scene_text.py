@@ -57,7 +57,8 @@ class SceneText(InScratch):
     def test_one_scene_has_one_meaning(self):
         good = yaml_of(SCENE)
         self.refused_text(good + "boundary: {top: {x: fixed}}\nboundary: {bottom: {y: fixed}}\n", "gives 'boundary' twice")
-        self.refused_text(good.encode() + b"\0damping_mass: 1e5\n", "has a NUL byte near line 7")
+        self.refused_text(good.encode() + b"\0damping_mass: 1e5\n", "has a NUL byte near line 7",
+                          "(?damping_mass: 1e5), so it is no text; remove it")
         self.refused_text(good.replace("1800", "01700"), "-material_block_density is 01700", "base 8")
         self.refused_text(good.replace("1800", "30:00"), "base 60")
         self.refused_text(good + "output_folder: 2026-01-31\n", "-output_folder is 2026-01-31", "a date", "in quotes")
@@ -118,6 +119,8 @@ class SceneText(InScratch):
         self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-wind_speed 3"}
         for ranks in (1, 2):
             self.refused(["(it stands in the variable PETSC_OPTIONS)"], *good, ranks=ranks)
+        self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-ksp_type cg"}
+        self.refused(["-ksp_type was given in the variable PETSC_OPTIONS", "has read it"], *good)
         self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-fp_trap cg"}
         self.refused(["PETSC_OPTIONS", "cg"], *good)
 
