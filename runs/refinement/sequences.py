@@ -1,6 +1,6 @@
 """Sequences of runs that differ in the size of the elements, the time step, or both: what a refinement study is made of.
 
-A sequence is a dict of these entries (science.md's scene R is one, runs/refinement/study.yaml spells it out):
+A sequence is a dict of these entries (runs/refinement/study.yaml spells several out):
 
     name                       of the sequence
     scene, family, variants    names; variants may be several, each is refined by itself

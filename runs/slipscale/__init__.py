@@ -6,8 +6,9 @@ Measuring   regime (what a run did in a window), spectrum (Welch), distance (of 
 Adapting    adapt (command), relaxation (formulas), search, trials
 Running     attempt (a program whose failure is a result), commands (options as words), table (runs by name, rows),
             sweep, sweep_plan, sweep_command
-Reports     what is said in Markdown about a table
-Pictures    picture (a run at a glance), maps (a table over options), cell_picture, relocalized_picture; what they share
+Reports     what is said about a table in Markdown; compare (runs side by side), pages of HTML (a run, a study)
+Pictures    picture (a run at a glance), scene (before it is run), maps (a table over options), cell_picture,
+            relocalized_picture; what they share
 
 For scripts and notebooks:
 

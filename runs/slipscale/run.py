@@ -31,7 +31,8 @@ class Contact:
     """The contact nodes, sorted along x, at the times of contact.h5.
 
     time [m] s; x [nc] m; u [m, nc, 2] m; slip_rate [m, nc] m/s; normal_traction [m, nc] Pa, >= 0 in compression;
-    tangential_traction [m, nc] Pa; status [m, nc]: slipscale.OPEN, STICK or SLIP.
+    tangential_traction [m, nc] Pa; status [m, nc]: slipscale.OPEN, STICK or SLIP. y [nc] m, gap [m, nc] m, v_y [m, nc]
+    m/s and strength [m, nc] Pa, what the friction law remembers; None in files of earlier versions.
     """
 
     time: np.ndarray
@@ -41,6 +42,10 @@ class Contact:
     normal_traction: np.ndarray
     tangential_traction: np.ndarray
     status: np.ndarray
+    y: np.ndarray | None = None
+    gap: np.ndarray | None = None
+    v_y: np.ndarray | None = None
+    strength: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,7 @@ class Frame:
 
     time s; coordinates [np, 2] m; triangles [nt, 3] point numbers, a quadrilateral gives two; cell_of_triangle [nt];
     region [nc] index into region_names; u [np, 2] m; v [np, 2] m/s; stress [nc, 3] Pa and strain [nc, 3]
-    (xx, yy, xy; engineering shear). `axes.tripcolor(*frame.coordinates.T, frame.triangles,
+    (xx, yy, xy; engineering shear); stress_zz, von_mises, principal_high and principal_low [nc] Pa. `axes.tripcolor(*frame.coordinates.T, frame.triangles,
     facecolors=frame.stress[frame.cell_of_triangle, 1])` draws σ_yy.
     """
 
@@ -63,6 +68,10 @@ class Frame:
     v: np.ndarray | None
     stress: np.ndarray | None
     strain: np.ndarray | None
+    stress_zz: np.ndarray | None = None
+    von_mises: np.ndarray | None = None
+    principal_high: np.ndarray | None = None
+    principal_low: np.ndarray | None = None
 
 
 class Run:
@@ -130,7 +139,8 @@ class Run:
     def contact(self):
         with ContactHistory(self.folder) as file:
             names = ("u", "slip_rate", "normal_traction", "tangential_traction", "status")
-            return Contact(file.time, file.x, **{name: file.read(name) for name in names})
+            later = [name for name in ("gap", "v_y", "strength") if file.holds(name)]
+            return Contact(file.time, file.x, **{name: file.read(name) for name in (*names, *later)}, y=file.y)
 
     @property
     def summary(self):
@@ -155,7 +165,8 @@ class Run:
         with Fields(self.folder) as file:
             k = file.nearest(time)
             read = {name: file.read(name, k) if file.holds(name, k) else None
-                    for name in ("u", "v", "stress", "strain")}
+                    for name in ("u", "v", "stress", "strain", "stress_zz", "von_mises", "principal_high",
+                                 "principal_low")}
             for name in ("u", "v"):
                 read[name] = None if read[name] is None else read[name][:, :2]
             return Frame(float(file.time[k]), file.coordinates, file.triangles, file.cell_of_triangle, file.region,

@@ -6,6 +6,7 @@
 
 #include "slipscale/base/print.hpp"
 #include "slipscale/mesh/outer_boundary.hpp"
+#include "slipscale/solid/material.hpp"
 
 namespace slipscale {
 namespace {
@@ -133,11 +134,24 @@ std::vector<std::string> those_that_speak(std::vector<std::string> texts) {
   return texts;
 }
 
+/// Linear triangles and fully integrated quadrilaterals cannot change shape at constant volume.
+std::string locking(const Model& model) {
+  std::string names;
+  for (std::size_t r = 0; r < model.materials.size(); ++r)
+    if (nearly_incompressible(model.materials[r].stiffness))
+      names += (names.empty() ? "'" : ", '") + model.mesh.regions[r].name + "'";
+  return names.empty()
+             ? ""
+             : "region " + names +
+                   " is nearly incompressible (Poisson's ratio above .49): its elements lock and are "
+                   "too stiff; see how results change with -mesh_refine 1";
+}
+
 }  // namespace
 
 std::vector<std::string> remarks_at_start(const SlidingBody& body) {
-  if (!body.scene().surface) return {};
-  return those_that_speak({memory_below_step(body), uncovered(body)});
+  if (!body.scene().surface) return those_that_speak({locking(body.model())});
+  return those_that_speak({locking(body.model()), memory_below_step(body), uncovered(body)});
 }
 
 std::vector<std::string> remarks_at_end(const SlidingBody& body) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "slipscale/base/cosine_ramp.hpp"
+#include "slipscale/base/parallel.hpp"
 
 namespace slipscale {
 namespace {
@@ -48,13 +49,10 @@ StraightSide::StraightSide(MPI_Comm comm, const Mesh& mesh, const BoundaryCondit
     numbers.push_back(mesh.nodes.number[i]);
     members_.push_back({nodes.slot_of(i), mesh.nodes.position[i][0] - middle, displacement[i][1]});
   }
-  int rank = 0, ranks = 0;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_split(comm, members_.empty() ? MPI_UNDEFINED : 0, rank, &comm_);
+  MPI_Comm_split(comm, members_.empty() ? MPI_UNDEFINED : 0, rank_of(comm), &comm_);
   if (comm_ == MPI_COMM_NULL) return;
-  MPI_Comm_rank(comm_, &rank);
-  MPI_Comm_size(comm_, &ranks);
-  counts_ = rank == 0;
+  const int ranks = ranks_of(comm_);
+  counts_ = is_root(comm_);
 
   const int own = static_cast<int>(members_.size());
   counts_of_.resize(static_cast<std::size_t>(ranks));

@@ -42,7 +42,9 @@ std::size_t stored_entries(hid_t dataset, const std::string& path, bool of_whole
   const H5T_class_t kind = H5Tget_class(type);
   require(kind == H5T_INTEGER || (kind == H5T_FLOAT && !of_whole_numbers), path,
           of_whole_numbers ? "does not hold whole numbers" : "does not hold numbers");
-  const double declared = count * static_cast<double>(H5Tget_size(type));
+  const std::size_t size = H5Tget_size(type);
+  require(size > 0, path, "has a type that cannot be read");
+  const double declared = count * static_cast<double>(size);
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
   require(declared <= 1032 * stored, path, "declares more numbers than the file holds");
   return static_cast<std::size_t>(count);

@@ -77,11 +77,6 @@ bool is_isotropic(const Eigen::Matrix3d& c) {
          1e-9 * c.cwiseAbs().maxCoeff();
 }
 
-bool nearly_incompressible(const Eigen::Matrix3d& stiffness) {
-  constexpr double locking = 0.49, rounding = 1e-9;
-  return engineering_constants(stiffness).poisson > locking + rounding;
-}
-
 std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases) {
   const std::vector<Phase> distinct = elastic_phases(phases);
   if (distinct.size() != 2) return std::nullopt;

@@ -104,6 +104,13 @@ WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
           std::sqrt(solver.eigenvalues()[0] / material.density)};
 }
 
+bool nearly_incompressible(const Eigen::Matrix3d& c) {
+  constexpr double locking = 0.49, rounding = 1e-9;
+  const double bulk = 0.25 * (c(0, 0) + c(1, 1) + c(0, 1) + c(1, 0));
+  const double shear = 0.5 * (0.25 * (c(0, 0) + c(1, 1) - c(0, 1) - c(1, 0)) + c(2, 2));
+  return (bulk - shear) / (2 * bulk) > locking + rounding;
+}
+
 Schema material_schema() {
   return {
       {"material_<region>_young", Kind::real, "Pa", required, range::physical_positive, "Young's modulus"},

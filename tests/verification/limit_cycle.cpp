@@ -16,7 +16,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-constexpr const char* prototype = "second program, second_program.py";
+constexpr const char* second_program = "second program, second_program.py";
 
 /// Index of M, the central contact node, among those of this rank; −1 on the others.
 int central_contact_node(const SlidingBody& body) {
@@ -153,7 +153,7 @@ void expect(const std::string& quantity, const std::vector<double>& expected,
   report({limit_cycle_topic, quantity,
           joined(expected, digits) +
               (relative > 0 ? format(", within {:g} %", 100 * relative) : format(", within {:g}", absolute)),
-          joined(found, digits), "", prototype});
+          joined(found, digits), "", second_program});
 }
 
 constexpr const char* paper = "the paper, Figure 2 (its claim; the numbers are ours)";

@@ -14,7 +14,7 @@ using namespace slipscale::testing_support;
 
 namespace {
 
-constexpr const char* prototype = "second program, second_program.py";
+constexpr const char* second_program = "second program, second_program.py";
 constexpr const char* slip_separated = "Sustained instability S1, slip-separated";
 constexpr const char* stick_slip = "Sustained instability S2, stick-slip-separated";
 
@@ -64,7 +64,7 @@ void expect(const char* topic, const std::string& quantity, const std::vector<do
     EXPECT_NEAR(found[k], expected[k], bound.around(expected[k])) << topic << ", " << quantity << ", " << k;
   const int digits = bound.relative ? 4 : 3;
   report(
-      {topic, quantity, joined(expected, digits) + ", " + bound.text, joined(found, digits), "", prototype});
+      {topic, quantity, joined(expected, digits) + ", " + bound.text, joined(found, digits), "", second_program});
 }
 
 /// A bound says something only if the averages themselves scatter less: over either half of the window and

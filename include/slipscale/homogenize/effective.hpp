@@ -29,10 +29,6 @@ Eigen::Matrix3d reuss_bound(const std::vector<Phase>& phases);  ///< ⟨C⁻¹�
 /// Whether C is that of an isotropic solid, to 1e-9 of its size.
 bool is_isotropic(const Eigen::Matrix3d& stiffness);
 
-/// Whether ν of the nearest isotropic solid exceeds .49: with a plane bulk modulus of more than fifty shear
-/// moduli, linear triangles and fully integrated quadrilaterals lock.
-bool nearly_incompressible(const Eigen::Matrix3d& stiffness);
-
 /// Bounds of the plane bulk modulus k = λ + G and the shear modulus G of an isotropic mixture, Pa. For a
 /// mixture that is not isotropic they hold for k and for the mean of its two shear moduli (trace bounds:
 /// Milton and Kohn, J. Mech. Phys. Solids 36 (1988) 597).

@@ -30,6 +30,10 @@ struct WaveSpeeds {
 /// Speeds of plane waves that travel along the unit vector (nx, ny), from the acoustic tensor.
 WaveSpeeds wave_speeds(const Material& material, double nx, double ny);
 
+/// Whether ν of the nearest isotropic solid exceeds .49: with a plane bulk modulus of more than fifty shear
+/// moduli, linear triangles and fully integrated quadrilaterals lock.
+bool nearly_incompressible(const Eigen::Matrix3d& stiffness);
+
 Schema material_schema();
 
 /// One material a region, in the order of `regions`. `material_all_…` (or `material_file`) serves every

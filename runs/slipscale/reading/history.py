@@ -94,9 +94,13 @@ class ContactHistory:
     def __init__(self, folder):
         self._file = open_hdf5(Path(folder) / "contact.h5")
         self.x = read_dataset(self._file, "x")
+        self.y = self._file["y"][()] if self.holds("y") else None
         growing = [name for name, dataset in self._file.items() if grows(dataset)]
         self.rows = min((len(self._file[name]) for name in growing), default=0)
         self.time = read_dataset(self._file, "time")[:self.rows]
+
+    def holds(self, name):
+        return name in self._file
 
     def read(self, name, rows=slice(None)):
         if name not in self._file:

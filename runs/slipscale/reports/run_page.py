@@ -19,7 +19,8 @@ def run_page(folder):
     run = Run(folder)
     body = [f"<h1>{html.text(Path(folder).resolve().name)}</h1>", f'<p class="lead">{html.text(lead(run))}</p>',
             html.warnings(warnings(run)), html.cards(headline(run)), picture(folder),
-            html.section("To repeat it", f"<pre>{html.text(command(run))}</pre>"),
+            html.section("To repeat it, from the folder in which the run was started",
+                         f"<pre>{html.text(command(run))}</pre>"),
             html.section("Numbers", html.table(rows_of(run.folder / "summary.yaml"))),
             html.section("Energy ledger at the end, J per metre of depth", html.table(ledger(run))),
             html.section("Mesh and step", html.table(group_of(run.folder / "run.yaml", "run"))),
@@ -33,7 +34,8 @@ def lead(run):
     reached, planned = run.time[-1], number(run.options.get("time_end"))
     text = f"{reached * 1e6:.4g} µs of sliding contact"
     if run.facts:
-        text += f", {run.facts.get('nodes')} nodes, {run.facts.get('ranks')} ranks"
+        ranks = run.facts.get("ranks")
+        text += f", {run.facts.get('nodes')} nodes, {ranks} rank{'' if ranks == 1 else 's'}"
     if not run.summary:
         text += f"; the run has not ended (planned: {planned * 1e6:.4g} µs)" if planned else "; the run has not ended"
     return text
@@ -62,8 +64,7 @@ def headline(run):
 
 
 def warnings(run):
-    said = [str(note) for note in listed(run.summary.get("notes")) + listed(run.facts.get("notes"))
-            + listed(run.summary.get("warnings"))]
+    said = [str(note) for note in listed(run.summary.get("notes")) + listed(run.summary.get("aliases"))]
     residual = number((run.summary.get("energy") or {}).get("largest_relative_residual"))
     if residual is not None and not abs(residual) <= SOUND_RESIDUAL:
         said.append(f"The energy balance misses {residual:.1e} of what flowed: more than rounding.")
@@ -79,6 +80,8 @@ def warnings(run):
 
 
 def listed(value):
+    if isinstance(value, dict):  # note_1, note_2, …
+        return list(value.values())
     return value if isinstance(value, list) else [value] if value else []
 
 
@@ -91,7 +94,8 @@ def picture(folder):
 
 def command(run):
     ranks = run.facts.get("ranks", 1)
-    words = ["slide", "-options_file_yaml", str(run.folder / "run.yaml")]
+    folder = run.folder.resolve()
+    words = ["slide", "-options_file_yaml", str(folder / "run.yaml"), "-output_folder", f"{folder}-again"]
     return shlex.join((["mpirun", "-n", str(ranks)] if ranks and int(ranks) > 1 else []) + words)
 
 
