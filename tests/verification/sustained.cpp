@@ -63,8 +63,8 @@ void expect(const char* topic, const std::string& quantity, const std::vector<do
   for (std::size_t k = 0; k < found.size(); ++k)
     EXPECT_NEAR(found[k], expected[k], bound.around(expected[k])) << topic << ", " << quantity << ", " << k;
   const int digits = bound.relative ? 4 : 3;
-  report(
-      {topic, quantity, joined(expected, digits) + ", " + bound.text, joined(found, digits), "", second_program});
+  report({topic, quantity, joined(expected, digits) + ", " + bound.text, joined(found, digits), "",
+          second_program});
 }
 
 /// A bound says something only if the averages themselves scatter less: over either half of the window and
