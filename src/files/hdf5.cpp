@@ -1,6 +1,7 @@
 #include "slipscale/files/hdf5.hpp"
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -83,6 +84,12 @@ std::string checksum_text(std::uint64_t checksum) {
 }
 
 void cut_off(hid_t file) {
+  // A limit on the size of files would hold for what takes the file's place, too.
+  rlimit largest{};
+  if (getrlimit(RLIMIT_FSIZE, &largest) == 0) {
+    largest.rlim_cur = largest.rlim_max;
+    (void)setrlimit(RLIMIT_FSIZE, &largest);
+  }
   void* handle = nullptr;
   const int nowhere = memfd_create("slipscale", MFD_CLOEXEC);
   if (nowhere < 0) return;
