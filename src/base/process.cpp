@@ -13,6 +13,8 @@ void start_alone() {
   // Processes that are alone all have the same session folder, where shared file pointers, which nobody
   // uses, would meet those of another run on this machine.
   (void)setenv("OMPI_MCA_sharedfp", "^sm", 0);
+  // Looking for a network takes .2 s, and there is nobody to speak to.
+  (void)setenv("OMPI_MCA_pml", "ob1", 0);
 }
 
 KeptSignals::KeptSignals() {
