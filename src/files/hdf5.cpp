@@ -1,5 +1,6 @@
 #include "slipscale/files/hdf5.hpp"
 
+#include <mpi.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -8,11 +9,17 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
 #include "slipscale/files/disk_space.hpp"
+
+/// HDF5's own mark that it has begun; weak, because a version may do without it.
+extern "C" {
+extern bool H5_libinit_g __attribute__((weak));
+}
 
 namespace slipscale {
 namespace {
@@ -83,7 +90,28 @@ std::string checksum_text(std::uint64_t checksum) {
   return format("fnv1a:{:016x}", static_cast<unsigned long long>(checksum));
 }
 
+namespace {
+
+int forget_hdf5(MPI_Comm, int, void*, void*) {
+  if (&H5_libinit_g) H5_libinit_g = false;
+  return MPI_SUCCESS;
+}
+
+/// HDF5 1.10 ends with MPI, and crashes there over a file that it could not flush: it closes such a file
+/// twice. Attributes of MPI_COMM_SELF are deleted in the reverse order of their making (MPI 3.1,
+/// section 8.7.1), so that this one comes before HDF5's.
+void leave_hdf5_unended() {
+  static bool done = false;
+  int key = MPI_KEYVAL_INVALID;
+  if (std::exchange(done, true)) return;
+  MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, forget_hdf5, &key, nullptr);
+  MPI_Comm_set_attr(MPI_COMM_SELF, key, nullptr);
+}
+
+}  // namespace
+
 void cut_off(hid_t file) {
+  leave_hdf5_unended();
   // A limit on the size of files would hold for what takes the file's place, too.
   rlimit largest{};
   if (getrlimit(RLIMIT_FSIZE, &largest) == 0) {

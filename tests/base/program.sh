@@ -154,5 +154,9 @@ breaks 'METIS gave up' -fail library
 breaks 'More prefixes popped than pushed' -fail petsc
 breaks 'an index' -fail other
 
+# Alone, beside others that come and go: nothing of MPI's own lies in a folder that they share.
+TMPDIR=$folder/absent "$program" -version > out 2> err < /dev/null || fail 'started alone, needs a session folder'
+[ ! -s err ] || fail 'noise: started alone without a temporary folder'
+
 [ $failures = 0 ] && echo 'all as expected'
 exit $((failures > 0))
