@@ -6,12 +6,20 @@
 
 namespace slipscale {
 
-/// Sums over the owned nodes that the energy ledger needs when the bulk dissipates.
-struct BulkSums {
-  double increment_force = 0;    ///< Δuᵀ K Δu of the step just closed, J/m
-  double increment_inertia = 0;  ///< Δaᵀ M Δa of the step just closed, N²/kg/m
-  double damping_past = 0;       ///< damping force at t_n times u_n − u_{n−1}, J/m
-  double damping_next = 0;       ///< damping force at t_n times u_{n+1} − u_n, J/m
+/// What owned nodes have lost so far where the bulk dissipates, J/m; null where the physics does not lose it.
+/// By node, so that no sum depends on the number of ranks.
+struct BulkLosses {
+  double* damping = nullptr;  ///< to bulk damping; of the coming step already the part 1 − β2
+  double* coming = nullptr;   ///< that part; kept by steps that keep the acceleration
+  double* scheme = nullptr;   ///< to the time scheme, β2 > ½
+};
+
+/// How a step counts in them.
+struct LossWeights {
+  double past = 0;     ///< of the damping force's work along the step before, β2; 0 in the first step
+  double next = 0;     ///< of its work along the coming step, 1 − β2
+  double force = 0;    ///< of Δuᵀ K Δu of the step just closed, β2 − ½; 0 in the first step
+  double inertia = 0;  ///< of Δaᵀ M Δa of that step, −(β2 − ½) β2 Δt²/2, s²; 0 in the first step
 };
 
 /// What the free motion of a node needs; arrays by local node.
@@ -33,18 +41,20 @@ struct BulkPhysics {
 };
 
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
-/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete.
+/// velocity, displacement; and the losses of the bulk. Called for every run of owned nodes as soon as their
+/// internal force is complete.
 template <BulkPhysics physics>
 class FreeMotion {
  public:
   FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping,
-             const Vector2& gravity, BulkSums& sums)
+             const Vector2& gravity, const BulkLosses& losses, const LossWeights& weights)
       : arrays_(arrays),
         step_(step),
         gravity_(load(gravity)),
         lag_(damping.stiffness / step.time_step),
         mass_damping_(damping.mass),
-        sums_(sums) {}
+        losses_(losses),
+        weights_(weights) {}
 
   void operator()(int begin, int end) const {
     // Local copies: the compiler cannot know that no store below changes the members.
@@ -54,7 +64,8 @@ class FreeMotion {
     const double lag = lag_, mass_damping = mass_damping_;
     // u_n − u_{n−1} = Δt w_n + (β2 − ½) Δt² a_{n−1}
     const double drift = step.displacement - step.time_step * step.time_step;
-    Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
+    const BulkLosses losses = losses_;
+    const LossWeights weights = weights_;
     for (int i = begin; i < end; ++i) {
       const Lanes w = load(arrays.predictor[i]), internal = load(arrays.force[i]);
       const double inverse_mass = arrays.inverse_mass[i];
@@ -69,23 +80,19 @@ class FreeMotion {
         if constexpr (physics.numerical_dissipation) {
           const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
           past += drift * old_a;
-          increment_force += past * (internal - load(arrays.previous_force[i]));
-          increment_inertia += change * change / inverse_mass;
+          losses.scheme[i] += sum(weights.force * past * (internal - load(arrays.previous_force[i])) +
+                                  weights.inertia / inverse_mass * change * change);
         }
         if constexpr (physics.stiffness_damping || physics.mass_damping) {
-          damping_past += (internal - resistance) * past;
-          damping_next += (internal - resistance) * increment;
+          const Lanes damper = resistance - internal;
+          const double next = weights.next * sum(damper * increment);
+          losses.damping[i] += weights.past * sum(damper * past) + next;
+          if constexpr (physics.keeps_acceleration) losses.coming[i] = next;
         }
       }
       store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
       store(arrays.predictor[i], next_predictor(step, w, a));
       if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
-    }
-    if constexpr (physics.keeps_force()) {
-      sums_.increment_force += increment_force[0] + increment_force[1];
-      sums_.increment_inertia += increment_inertia[0] + increment_inertia[1];
-      sums_.damping_past += damping_past[0] + damping_past[1];
-      sums_.damping_next += damping_next[0] + damping_next[1];
     }
   }
 
@@ -94,7 +101,8 @@ class FreeMotion {
   const StepCoefficients step_;
   const Lanes gravity_;
   const double lag_, mass_damping_;
-  BulkSums& sums_;
+  const BulkLosses losses_;
+  const LossWeights weights_;
 };
 
 }  // namespace slipscale

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,9 +68,10 @@ class SlidingBody {
 
   const StraightSides& straight_sides() const { return *straight_; }  ///< at t_n
 
-  /// The energy balance at t_n of an observed step, summed over the ranks. Collective.
+  /// The energy balance at t_n of an observed step, the same bits on any number of ranks. Collective.
   Energy energy() const;
-  /// Mass and momenta at t_n of an observed step, without plates, summed over the ranks. Collective.
+  /// Mass and momenta at t_n of an observed step, without plates; the same bits on any number of ranks.
+  /// Collective.
   Momentum momentum() const;
   /// Whether any contact node was closed at any step so far. Collective.
   bool has_touched() const;
@@ -83,7 +87,10 @@ class SlidingBody {
 
   void start_force();
   void set_contact_nodes();
-  Energy local_energy() const;  ///< this rank's terms; no residual, flowed kinetic only
+  double gravity_work(int node, const Vector2& displacement) const;
+  using BulkTerms = std::array<std::span<const double>, 4>;
+  BulkTerms bulk_terms() const;
+  std::int64_t largest_count() const;
   NodalState state(bool with_acceleration) const;
 
   MPI_Comm comm_;
@@ -103,10 +110,10 @@ class SlidingBody {
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
   FreeMotionStep free_motion_, observed_free_motion_;
-  BulkSums bulk_;
   EnergyLedger ledger_;
-  double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m
-  double start_energy_ = 0;   ///< Ê at t = 0 of this rank, J/m
+  double start_gravity_ = 0;           ///< Σ m g·u_0 of all ranks, J/m
+  double start_energy_ = 0;            ///< Ê at t = 0 of all ranks, J/m
+  mutable std::vector<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
   long step_ = 0;
 };

@@ -86,6 +86,7 @@ class StraightSides {
                 const BoundaryNodes& nodes, const Supports& supports, const Vector2* displacement,
                 Vector2* predictor);
   bool empty() const { return sides_.empty(); }
+  std::size_t size() const { return sides_.size(); }
   bool holds(int slot) const;  ///< whether a node belongs to one of them
 
   std::vector<std::unique_ptr<StraightSide>>::const_iterator begin() const { return sides_.begin(); }
