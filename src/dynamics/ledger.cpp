@@ -16,10 +16,10 @@ void EnergyLedger::start(const BulkPhysics& physics, int owned_nodes, int bounda
   plates_ = NodalWork(plates);
   plates_scheme_.assign(plates, 0);
   if (physics.mass_damping || physics.stiffness_damping) {
-    damping_.assign(owned_nodes, 0);
-    coming_.assign(owned_nodes, 0);
+    damping_.assign(owned_nodes, {0, 0});
+    coming_.assign(owned_nodes, {0, 0});
   }
-  if (physics.numerical_dissipation) scheme_.assign(owned_nodes, 0);
+  if (physics.numerical_dissipation) scheme_.assign(owned_nodes, {0, 0});
 }
 
 void EnergyLedger::add(const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state,
@@ -70,12 +70,12 @@ void EnergyLedger::correct_bulk(const BulkPhysics& physics, const Damping& dampi
                             damping.mass * nodes.mass[k] * nodes.predictor[k][axis];
       if (damped) {
         const double next = weight.next * damper * step.displacement * pushed;
-        damping_[i] += next;
-        coming_[i] += next;
+        damping_[i][axis] += next;
+        coming_[i][axis] += next;
       }
       if (physics.numerical_dissipation)
-        scheme_[i] += weight.inertia * total[k][axis] *
-                      (2 * state.acceleration[i][axis] - pushed - 2 * nodes.acceleration[k][axis]);
+        scheme_[i][axis] += weight.inertia * total[k][axis] *
+                            (2 * state.acceleration[i][axis] - pushed - 2 * nodes.acceleration[k][axis]);
     }
   }
 }
@@ -91,11 +91,21 @@ void EnergyLedger::add_plates(const StraightSides& sides) {
 }
 
 std::vector<EnergyLedger::Term> EnergyLedger::works() const {
-  return {{&Energy::loads, 1, loads_.done},          {&Energy::loads, 1, plates_.done},
-          {&Energy::supports, 1, supports_.done},    {&Energy::surface_drive, 1, drive_.done},
-          {&Energy::friction_heat, 1, heat_.done},   {&Energy::impact_loss, 1, impact_.done},
-          {&Energy::damping, 1, damping_},           {&Energy::damping, -1, coming_},
-          {&Energy::scheme_dissipation, 1, scheme_}, {&Energy::scheme_dissipation, 1, plates_scheme_}};
+  bulk_done_.resize(damping_.size() + scheme_.size());
+  const std::span done(bulk_done_);
+  const auto damping = done.first(damping_.size()), scheme = done.last(scheme_.size());
+  for (std::size_t i = 0; i < damping.size(); ++i)
+    damping[i] = (damping_[i][0] - coming_[i][0]) + (damping_[i][1] - coming_[i][1]);
+  for (std::size_t i = 0; i < scheme.size(); ++i) scheme[i] = scheme_[i][0] + scheme_[i][1];
+  return {{&Energy::loads, loads_.done},
+          {&Energy::loads, plates_.done},
+          {&Energy::supports, supports_.done},
+          {&Energy::surface_drive, drive_.done},
+          {&Energy::friction_heat, heat_.done},
+          {&Energy::impact_loss, impact_.done},
+          {&Energy::damping, damping},
+          {&Energy::scheme_dissipation, scheme},
+          {&Energy::scheme_dissipation, plates_scheme_}};
 }
 
 void close_balance(Energy& e, double start) {

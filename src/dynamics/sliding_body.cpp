@@ -258,7 +258,7 @@ Energy SlidingBody::energy() const {
   energy.strain = sums[2];
   energy.body_force = sums[3] - start_gravity_;
   for (std::size_t k = 0; k < works.size(); ++k)
-    energy.*works[k].energy += works[k].sign * sums[bulk.size() + k];
+    energy.*works[k].energy += sums[bulk.size() + k];
   close_balance(energy, start_energy_);
   return energy;
 }

@@ -6,12 +6,12 @@
 
 namespace slipscale {
 
-/// What owned nodes have lost so far where the bulk dissipates, J/m; null where the physics does not lose it.
-/// By node, so that no sum depends on the number of ranks.
+/// What owned nodes have lost so far where the bulk dissipates, along x and y, J/m; null where the physics
+/// does not lose it. By node, so that no sum depends on the number of ranks.
 struct BulkLosses {
-  double* damping = nullptr;  ///< to bulk damping; of the coming step already the part 1 − β2
-  double* coming = nullptr;   ///< that part; kept by steps that keep the acceleration
-  double* scheme = nullptr;   ///< to the time scheme, β2 > ½
+  Vector2* damping = nullptr;  ///< to bulk damping; of the coming step already the part 1 − β2
+  Vector2* coming = nullptr;   ///< that part; kept by steps that keep the acceleration
+  Vector2* scheme = nullptr;   ///< to the time scheme, β2 > ½
 };
 
 /// How a step counts in them.
@@ -80,14 +80,14 @@ class FreeMotion {
         if constexpr (physics.numerical_dissipation) {
           const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
           past += drift * old_a;
-          losses.scheme[i] += sum(weights.force * past * (internal - load(arrays.previous_force[i])) +
-                                  weights.inertia / inverse_mass * change * change);
+          add(losses.scheme[i], weights.force * past * (internal - load(arrays.previous_force[i])) +
+                                    weights.inertia / inverse_mass * change * change);
         }
         if constexpr (physics.stiffness_damping || physics.mass_damping) {
           const Lanes damper = resistance - internal;
-          const double next = weights.next * sum(damper * increment);
-          losses.damping[i] += weights.past * sum(damper * past) + next;
-          if constexpr (physics.keeps_acceleration) losses.coming[i] = next;
+          const Lanes next = weights.next * increment;
+          add(losses.damping[i], damper * (weights.past * past + next));
+          if constexpr (physics.keeps_acceleration) store(losses.coming[i], damper * next);
         }
       }
       store(arrays.displacement[i], load(arrays.displacement[i]) + increment);

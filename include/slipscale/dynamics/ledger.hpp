@@ -105,21 +105,21 @@ class EnergyLedger {
   /// nodes are among the loads, and with their own inertia the loads become the forces on the plates.
   void add_plates(const StraightSides& sides);
 
-  /// What this rank adds to the works of an observed step: to an energy, with its sign, the sum of a list.
+  /// What this rank adds to the works of an observed step: to an energy the sum of a list.
   struct Term {
     double Energy::*energy;
-    double sign;
     std::span<const double> list;
   };
   std::vector<Term> works() const;
 
  private:
   double beta2_, time_step_;
-  NodalWork loads_, supports_;                     ///< by slot
-  NodalWork drive_, heat_, impact_;                ///< by contact node
-  NodalWork plates_;                               ///< by side, on the rank that answers for it
-  std::vector<double> damping_, coming_, scheme_;  ///< by owned node
-  std::vector<double> plates_scheme_;              ///< by side
+  NodalWork loads_, supports_;                      ///< by slot
+  NodalWork drive_, heat_, impact_;                 ///< by contact node
+  NodalWork plates_;                                ///< by side, on the rank that answers for it
+  std::vector<Vector2> damping_, coming_, scheme_;  ///< by owned node, see BulkLosses
+  mutable std::vector<double> bulk_done_;  ///< their sums by node; kept so that a row allocates little
+  std::vector<double> plates_scheme_;      ///< by side
   double past_travel_ = 0;
   std::vector<Vector2> scratch_;  ///< all boundary forces by slot; kept so that a step allocates nothing
 };

@@ -18,6 +18,6 @@ inline Lanes load(const Vector2& x) {
 
 inline void store(Vector2& x, Lanes lanes) { std::memcpy(x.data(), &lanes, sizeof lanes); }
 
-inline double sum(Lanes lanes) { return lanes[0] + lanes[1]; }
+inline void add(Vector2& x, Lanes lanes) { store(x, load(x) + lanes); }
 
 }  // namespace slipscale
