@@ -7,10 +7,19 @@ namespace {
 
 double dot(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
 
+double* numbers(std::vector<Vector2>& rows) { return rows.empty() ? nullptr : rows[0].data(); }
+
+void add_work(StateGroup& group, const std::string& name, const std::string& text, NodalWork& work) {
+  group.arrays.push_back({name, "J/m", text + " since t = 0", 1, work.done.data()});
+  group.arrays.push_back(
+      {name + "_waiting", "J/m", text + " along the coming step, (1 - beta2) of it", 1, work.waiting.data()});
+}
+
 }  // namespace
 
 void EnergyLedger::start(const BulkPhysics& physics, int owned_nodes, int boundary_nodes, int contact_nodes,
                          int plates) {
+  physics_ = physics;
   loads_ = supports_ = NodalWork(boundary_nodes);
   drive_ = heat_ = impact_ = NodalWork(contact_nodes);
   plates_ = NodalWork(plates);
@@ -106,6 +115,35 @@ std::vector<EnergyLedger::Term> EnergyLedger::works() const {
           {&Energy::damping, damping},
           {&Energy::scheme_dissipation, scheme},
           {&Energy::scheme_dissipation, plates_scheme_}};
+}
+
+void EnergyLedger::add_state(StateGroup& nodes, StateGroup& boundary_nodes, StateGroup& contact_nodes) {
+  if (physics_.mass_damping || physics_.stiffness_damping)
+    nodes.arrays.push_back({"damping", "J/m", "lost to bulk damping, of the coming step (1 - beta2) included",
+                            2, numbers(damping_)});
+  if (physics_.numerical_dissipation)
+    nodes.arrays.push_back({"scheme_dissipation", "J/m", "lost to the time scheme", 2, numbers(scheme_)});
+  add_work(boundary_nodes, "loads", "work of the tractions and plates", loads_);
+  add_work(boundary_nodes, "supports", "work of the prescribed displacements", supports_);
+  add_work(contact_nodes, "surface_drive", "work of the motor that drives the surface", drive_);
+  add_work(contact_nodes, "friction_heat", "heat of friction", heat_);
+  add_work(contact_nodes, "impact_loss", "energy lost where the node met the surface", impact_);
+}
+
+std::vector<StateGroup> EnergyLedger::plates_state(const StraightSides& sides) {
+  std::vector<StateGroup> groups;
+  std::size_t k = 0;
+  for (const auto& side : sides) {
+    StateGroup group{"plate_" + side->boundary() + "_energy", {}, 0, side->counts(), {}};
+    if (side->counts()) group.keys = {0};
+    group.arrays = {
+        {"work", "J/m", "of the plate's inertia since t = 0", 1, &plates_.done[k]},
+        {"work_waiting", "J/m", "along the coming step, (1 - beta2) of it", 1, &plates_.waiting[k]},
+        {"scheme_dissipation", "J/m", "lost to the time scheme", 1, &plates_scheme_[k]}};
+    groups.push_back(std::move(group));
+    ++k;
+  }
+  return groups;
 }
 
 void close_balance(Energy& e, double start) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/bulk.hpp"
@@ -112,8 +113,16 @@ class EnergyLedger {
   };
   std::vector<Term> works() const;
 
+  /// Adds what later steps and rows need of the steps so far to the groups of those names, and a group for
+  /// each plate, on the rank that answers for it.
+  void add_state(StateGroup& nodes, StateGroup& boundary_nodes, StateGroup& contact_nodes);
+  std::vector<StateGroup> plates_state(const StraightSides& sides);
+  /// After the arrays were filled in. `surface_travel`: over the last step made, m.
+  void resume(double surface_travel) { past_travel_ = surface_travel; }
+
  private:
   double beta2_, time_step_;
+  BulkPhysics physics_;
   NodalWork loads_, supports_;                      ///< by slot
   NodalWork drive_, heat_, impact_;                 ///< by contact node
   NodalWork plates_;                                ///< by side, on the rank that answers for it

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/ledger.hpp"
@@ -73,6 +74,12 @@ class SlidingBody {
   /// Mass and momenta at t_n of an observed step, without plates; the same bits on any number of ranks.
   /// Collective.
   Momentum momentum() const;
+  /// Everything that the steps so far left behind, for a checkpoint to keep: the arrays are the body's own.
+  /// When those of a body made anew are filled in and `resume` is called, it goes on with the same bits.
+  /// Collective.
+  std::vector<StateGroup> state();
+  void resume();
+
   /// Whether any contact node was closed at any step so far. Collective.
   bool has_touched() const;
 
@@ -116,6 +123,10 @@ class SlidingBody {
   mutable std::vector<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
   long step_ = 0;
+  /// The run as a whole, for a checkpoint.
+  struct Carried {
+    double steps, surface_travel, start_gravity, start_energy, touched;
+  } carried_{};
 };
 
 }  // namespace slipscale
