@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <vector>
 
 #include "slipscale/base/error.hpp"
@@ -18,7 +19,8 @@ namespace {
 /// An open file, closed on the way out.
 class File {
  public:
-  explicit File(const std::string& path) : number_(open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+  explicit File(const std::string& path, int flags = O_WRONLY)
+      : number_(open(path.c_str(), flags | O_CLOEXEC)) {
     if (number_ < 0) throw LibraryError(std::strerror(errno));
   }
   ~File() { (void)close(number_); }
@@ -87,6 +89,15 @@ void fill_with_zeros(const std::string& path, std::uint64_t size) {
 
 void give_back_space(const std::string& path, std::uint64_t size) {
   if (truncate(path.c_str(), static_cast<off_t>(size)) != 0) throw LibraryError(std::strerror(errno));
+}
+
+void sync_file(const std::string& path) {
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  const File file(path, O_RDONLY), place(folder, O_RDONLY | O_DIRECTORY);
+  if (fsync(file) != 0) throw LibraryError(std::strerror(errno));
+  // Some file systems have nothing to write for a folder, and say so.
+  if (fsync(place) != 0 && errno != EINVAL && errno != ENOTSUP) throw LibraryError(std::strerror(errno));
 }
 
 }  // namespace slipscale

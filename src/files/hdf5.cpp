@@ -66,15 +66,25 @@ void make_place(const std::string& path) {
   }
 }
 
+Hdf5Properties without_locking() {
+  Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
+  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
+  return access;
+}
+
 }  // namespace
 
 Hdf5File create_file(const std::string& path) {
   make_place(path);
-  const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
-  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
-  Hdf5File file(hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
+  Hdf5File file(
+      hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, without_locking()), "cannot create the file"));
   write_provenance(file);
   return file;
+}
+
+Hdf5File open_file(const std::string& path, bool writing) {
+  return Hdf5File(
+      hdf5(H5Fopen(path.c_str(), writing ? H5F_ACC_RDWR : H5F_ACC_RDONLY, without_locking()), "opening"));
 }
 
 void write_provenance(hid_t file) {
@@ -169,6 +179,45 @@ void write_attribute(hid_t object, const std::string& name, double value) {
 void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
   const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
   write_value(object, name, H5T_NATIVE_INT64, scalar, &value);
+}
+
+std::string attribute_text(hid_t object, const std::string& name) {
+  const std::string what = "the attribute '" + name + "'";
+  const Hdf5Attribute attribute(hdf5(H5Aopen(object, name.c_str(), H5P_DEFAULT), what));
+  const Hdf5Type type(hdf5(H5Aget_type(attribute), what));
+  const Hdf5Space space(hdf5(H5Aget_space(attribute), what));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
+      H5Sget_simple_extent_npoints(space) != 1)
+    throw LibraryError(what + " is not a text of fixed length");
+  std::string text(H5Tget_size(type), '\0');
+  hdf5(H5Aread(attribute, type, text.data()), what);
+  return text.substr(0, text.find('\0'));
+}
+
+bool has_path(hid_t file, const std::string& path) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> links_of(hid_t file, const std::string& group) {
+  std::vector<std::string> names;
+  const auto take = [](hid_t, const char* name, const H5L_info_t*, void* into) -> herr_t {
+    static_cast<std::vector<std::string>*>(into)->emplace_back(name);
+    return 0;
+  };
+  hdf5(
+      H5Literate_by_name(file, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names, H5P_DEFAULT),
+      group);
+  return names;
+}
+
+std::vector<hsize_t> shape_of(hid_t dataset, const std::string& what) {
+  const Hdf5Space space(hdf5(H5Dget_space(dataset), what));
+  std::vector<hsize_t> shape(static_cast<std::size_t>(hdf5(H5Sget_simple_extent_ndims(space), what)));
+  hdf5(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
+  return shape;
 }
 
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description) {

@@ -10,6 +10,7 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/collect_rows.hpp"
+#include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
@@ -86,9 +87,10 @@ hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIV
 SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
     : comm_(comm), root_(is_root(comm)), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
+  if (appearance_ == Appearance::continued) examine([&](hid_t) { file_ = open_to_continue(path_); });
   write_together(comm_, path_, [&] {
     if (!root_) return;
-    file_ = create_file(name());
+    if (!file_.open()) file_ = create_file(name());
     forget_soon(file_);
   });
   try {
@@ -97,6 +99,20 @@ SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, App
     discard();
     throw;
   }
+}
+
+void SharedFile::examine(const std::function<void(hid_t file)>& look) const {
+  std::string fault;
+  try {
+    if (root_) look(file_);
+  } catch (const LibraryError& error) {
+    fault = continuation_fault(path_, error.what());
+  }
+  throw_together(comm_, fault);
+}
+
+void SharedFile::change(const std::function<void(hid_t file)>& action) {
+  on_root([&] { action(file_); });
 }
 
 SharedFile::~SharedFile() {
@@ -164,15 +180,34 @@ void SharedFile::add_series(const DatasetDescription& about) {
 void SharedFile::append(const std::string& series, double value) {
   on_root([&] {
     Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
-    hsize_t length = 0;
-    {
-      const Hdf5Space space(hdf5(H5Dget_space(dataset), series));
-      hdf5(H5Sget_simple_extent_dims(space, &length, nullptr), series);
-    }
+    const hsize_t length = shape_of(dataset, series)[0];
     const hsize_t longer = length + 1;
     hdf5(H5Dset_extent(dataset, &longer), series);
     write_rows(dataset, {longer}, length, 1, H5T_NATIVE_DOUBLE, &value, series);
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
+  });
+}
+
+std::vector<double> SharedFile::read_series(const DatasetDescription& about, std::size_t count) const {
+  std::vector<double> values(count);
+  examine([&](hid_t file) {
+    const Hdf5Dataset series = expect_series(file, about.path, H5T_IEEE_F64LE, {}, count, about.units);
+    if (count == 0) return;
+    const hsize_t start = 0, rows = count;
+    const Hdf5Space source(hdf5(H5Dget_space(series), about.path)),
+        target(hdf5(H5Screate_simple(1, &rows, nullptr), about.path));
+    hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, &start, nullptr, &rows, nullptr), about.path);
+    hdf5(H5Dread(series, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), about.path);
+  });
+  MPI_Bcast(values.data(), static_cast<int>(count), MPI_DOUBLE, 0, comm_);
+  return values;
+}
+
+void SharedFile::cut_series(const std::string& series, std::size_t count) {
+  on_root([&] {
+    const Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
+    const hsize_t rows = count;
+    hdf5(H5Dset_extent(dataset, &rows), series);
   });
 }
 

@@ -1,5 +1,8 @@
 #include "slipscale/record/history.hpp"
 
+#include <limits>
+#include <map>
+
 namespace slipscale {
 namespace {
 
@@ -8,8 +11,8 @@ constexpr double between_batches = 0.5;  // s
 }  // namespace
 
 HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-                         double rows)
-    : file_(path, between_batches, rows) {
+                         double rows, std::optional<SeriesFile::Continue> continued)
+    : file_(path, between_batches, rows, continued) {
   time_ = file_.add("/time", {}, "s", "time of the row, t_n = n times the step");
   step_ = file_.add("/step", {}, "1", "number of the step, n");
   for (const std::string& name : body.boundary_names()) {
@@ -48,23 +51,32 @@ void HistoryFile::add_energy() {
     energy_.push_back(file_.add(std::string("/energy/") + term.name, {}, "J/m", term.description));
 }
 
-void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
-  file_.append(time_, seen.time);
-  file_.append(step_, static_cast<double>(seen.step));
+/// Calls `visit(id of the quantity, its place in the observation)` for all that is a real number: what is
+/// written and what is read back is the same.
+template <class Seen, class Visit>
+void HistoryFile::visit_numbers(Seen& seen, Visit visit) const {
+  visit(time_, seen.time);
   for (std::size_t b = 0; b < seen.boundaries.size(); ++b) {
-    file_.append(boundary_[2 * b], seen.boundaries[b].normal);
-    file_.append(boundary_[2 * b + 1], seen.boundaries[b].tangential);
+    visit(boundary_[2 * b], seen.boundaries[b].normal);
+    visit(boundary_[2 * b + 1], seen.boundaries[b].tangential);
   }
-  if (friction_ >= 0) file_.append(friction_, seen.friction);
+  if (friction_ >= 0) visit(friction_, seen.friction);
   if (!surface_.empty()) {
-    const double values[] = {seen.surface.normal, seen.surface.tangential, seen.drive_power,
-                             seen.power_into_body, seen.friction_heat};
-    for (std::size_t k = 0; k < surface_.size(); ++k) file_.append(surface_[k], values[k]);
-    const double fractions[] = {seen.stick, seen.slip, seen.open};
-    for (std::size_t k = 0; k < fractions_.size(); ++k) file_.append(fractions_[k], fractions[k]);
+    visit(surface_[0], seen.surface.normal);
+    visit(surface_[1], seen.surface.tangential);
+    visit(surface_[2], seen.drive_power);
+    visit(surface_[3], seen.power_into_body);
+    visit(surface_[4], seen.friction_heat);
+    visit(fractions_[0], seen.stick);
+    visit(fractions_[1], seen.slip);
+    visit(fractions_[2], seen.open);
   }
-  for (std::size_t k = 0; k < energy_.size(); ++k)
-    file_.append(energy_[k], seen.energy.*energy_terms[k].value);
+  for (std::size_t k = 0; k < energy_.size(); ++k) visit(energy_[k], seen.energy.*energy_terms[k].value);
+}
+
+void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
+  visit_numbers(seen, [&](int id, double value) { file_.append(id, value); });
+  file_.append(step_, static_cast<double>(seen.step));
   for (std::size_t p = 0; p < probes.size(); ++p) {
     file_.append(points_[3 * p], probes[p].u.data());
     file_.append(points_[3 * p + 1], probes[p].v.data());
@@ -73,8 +85,25 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
   file_.end_row();
 }
 
-ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows)
-    : file_(path, between_batches, rows), length_(observer.tributary_length()) {
+std::vector<Observation> HistoryFile::rows_so_far() {
+  Observation row;
+  row.boundaries.resize(boundary_.size() / 2);
+  row.friction = std::numeric_limits<double>::quiet_NaN();
+  std::map<int, std::vector<double>> columns{{step_, file_.read(step_)}};
+  visit_numbers(row, [&](int id, double&) { columns[id] = file_.read(id); });
+  std::vector<Observation> rows;
+  if (!file_.fault().empty() || !file_.refusal().empty()) return rows;
+  for (std::size_t k = 0; k < file_.rows(); ++k) {
+    visit_numbers(row, [&](int id, double& value) { value = columns[id][k]; });
+    row.step = static_cast<long>(columns[step_][k]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows,
+                         std::optional<SeriesFile::Continue> continued)
+    : file_(path, between_batches, rows, continued), length_(observer.tributary_length()) {
   const hsize_t nodes = observer.contact_x().size();
   file_.constant("/x", observer.contact_x().data(), {nodes}, "m",
                  "where the contact nodes are in the undeformed body");

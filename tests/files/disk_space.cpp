@@ -82,3 +82,14 @@ TEST(NewFile, LeavesNothingWhereItsFirstBytesHaveNoRoom) {
   EXPECT_FALSE(std::filesystem::exists(path));
   EXPECT_NO_THROW(create_file(path));
 }
+
+TEST(SyncFile, SaysWhatIsInTheWay) {
+  const std::string path = file_with("synced", "data");
+  sync_file(path);
+  EXPECT_EQ(text_of(path), "data");
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(std::filesystem::path(path).parent_path());
+  sync_file(std::filesystem::path(path).filename());
+  std::filesystem::current_path(here);
+  EXPECT_EQ(failure_of<LibraryError>([&] { sync_file(path + ".none"); }), "No such file or directory");
+}

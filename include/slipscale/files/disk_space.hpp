@@ -22,4 +22,8 @@ void fill_with_zeros(const std::string& path, std::uint64_t size);
 /// Gives back what was set aside behind the end of a file of this size.
 void give_back_space(const std::string& path, std::uint64_t size);
 
+/// Returns when the file and its name in its folder would outlast a power cut. Throws `LibraryError` with the
+/// system's words.
+void sync_file(const std::string& path);
+
 }  // namespace slipscale

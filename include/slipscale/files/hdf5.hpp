@@ -49,6 +49,9 @@ void keep_hdf5_messages();
 /// serial driver. It says at once where it comes from (`write_provenance`).
 Hdf5File create_file(const std::string& path);
 
+/// An existing file, without file locking, so that the file of a running job can be read.
+Hdf5File open_file(const std::string& path, bool writing = false);
+
 /// Attributes of the root group: program, version, commit (where built from git), date (UTC, of the start)
 /// and ranks. They stand apart from the datasets, which are the same on any number of ranks.
 void write_provenance(hid_t file);
@@ -76,6 +79,15 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 /// Likewise a number.
 void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+
+/// The text of an attribute of fixed length.
+std::string attribute_text(hid_t object, const std::string& name);
+/// Whether there is an object of this path.
+bool has_path(hid_t file, const std::string& path);
+/// Names of what a group holds, ascending.
+std::vector<std::string> links_of(hid_t file, const std::string& group);
+/// Of a dataset; `what` is for the message.
+std::vector<hsize_t> shape_of(hid_t dataset, const std::string& what);
 
 /// The two attributes that every dataset carries: SI unit ("1" for a ratio) and one line for people.
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description);

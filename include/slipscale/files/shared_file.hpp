@@ -56,10 +56,12 @@ hid_t index_type();
 class SharedFile {
  public:
   /// `whole`: under a temporary name until `finish`, and gone if that never comes; `growing`: under its own
-  /// name from the start, readable after every `flush`.
-  enum class Appearance { whole, growing };
+  /// name from the start, readable after every `flush`; `continued`: a growing one that another process
+  /// began, to `examine` and then go on with.
+  enum class Appearance { whole, growing, continued };
 
-  /// `bytes`: what the file will soon have at most, set aside at once.
+  /// `bytes`: what the file will soon have at most, set aside at once. Throws `UserError` on all ranks when a
+  /// file to be continued is not there, damaged, or of another program.
   SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance = Appearance::whole);
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
@@ -85,6 +87,17 @@ class SharedFile {
   void link(const std::string& from, const std::string& to);
   /// Adds attributes to a dataset or group that exists, on rank 0 alone.
   void describe(const std::string& object, const std::function<void(hid_t object)>& attributes);
+
+  /// Looks at the file on rank 0; `LibraryError` with a fault becomes `UserError`, the sentence on why it
+  /// cannot be continued, on all ranks.
+  void examine(const std::function<void(hid_t file)>& look) const;
+  /// Does something else to the file, on rank 0 alone.
+  void change(const std::function<void(hid_t file)>& action);
+
+  /// The first `count` numbers of a list, the same on every rank. Throws as `examine`.
+  std::vector<double> read_series(const DatasetDescription& about, std::size_t count) const;
+  /// Keeps the first `count` of a list.
+  void cut_series(const std::string& series, std::size_t count);
 
   /// Sets room aside for what comes next; when the disk has not got it, the file stays as it is.
   void reserve(double bytes);

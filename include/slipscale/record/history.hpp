@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,19 @@ namespace slipscale {
 /// those of `Energy` (ledger.hpp). Lives on rank 0.
 class HistoryFile {
  public:
-  /// `rows` that are expected.
+  /// `rows` that are expected; `continued`: of a file that another process began.
   HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-              double rows);
+              double rows, std::optional<SeriesFile::Continue> continued = {});
   void write(const Observation& seen, const std::vector<ProbeReading>& probes);
+  /// What was seen in the rows so far, contact nodes left out; nothing, and a fault or a refusal of the
+  /// series, when they cannot be read.
+  std::vector<Observation> rows_so_far();
   SeriesFile& series() { return file_; }
 
  private:
   void add_energy();
+  template <class Seen, class Visit>
+  void visit_numbers(Seen& seen, Visit visit) const;
 
   SeriesFile file_;
   int time_, step_, friction_ = -1;
@@ -31,7 +37,8 @@ class HistoryFile {
 /// contact.h5: every contact node, along x, at the saved times, as an `Observer` sees it. Lives on rank 0.
 class ContactFile {
  public:
-  ContactFile(const std::string& path, const Observer& observer, double rows);
+  ContactFile(const std::string& path, const Observer& observer, double rows,
+              std::optional<SeriesFile::Continue> continued = {});
   void write(const Observation& seen, double surface_velocity);
   SeriesFile& series() { return file_; }
 
