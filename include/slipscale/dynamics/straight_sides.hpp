@@ -46,6 +46,10 @@ class StraightSide {
   /// ½ V·MV and ½ A·MA at t_n of the plate alone; on one rank. J/m, and N²/kg/m
   std::array<double, 2> energies() const;
 
+  /// Mass and moment of inertia of the plate alone, kg/m and kg m; on one rank, zero on the others.
+  PlateMotion plate_mass() const { return counts_ ? own_ : PlateMotion{}; }
+  bool answers_for_plate() const { return counts_; }  ///< true on one rank
+
   const std::string& boundary() const { return boundary_; }
   const PlateMotion& displacement() const { return before_; }  ///< at t_n since the start; on ranks that hold
   const PlateMotion& velocity() const { return velocity_; }    ///< nodes of the side

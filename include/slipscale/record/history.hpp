@@ -14,18 +14,20 @@ namespace slipscale {
 /// those of `Energy` (ledger.hpp). Lives on rank 0.
 class HistoryFile {
  public:
-  /// `rows` that are expected.
+  /// `rows` that are expected; `momentum`: whether the observations bring those of body and plates.
   HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-              double rows);
+              bool momentum, double rows);
   void write(const Observation& seen, const std::vector<ProbeReading>& probes);
   SeriesFile& series() { return file_; }
 
  private:
   void add_energy();
+  void add_momentum(const SlidingBody& body);
+  void write_momentum(const Observation& seen);
 
   SeriesFile file_;
   int time_, step_, friction_ = -1;
-  std::vector<int> boundary_, surface_, energy_, fractions_, points_;
+  std::vector<int> boundary_, surface_, energy_, momentum_, plates_, fractions_, points_;
 };
 
 /// contact.h5: every contact node, along x, at the saved times, as an `Observer` sees it. Lives on rank 0.
