@@ -134,8 +134,8 @@ std::vector<StateGroup> EnergyLedger::plates_state(const StraightSides& sides) {
   std::vector<StateGroup> groups;
   std::size_t k = 0;
   for (const auto& side : sides) {
-    StateGroup group{"plate_" + side->boundary() + "_energy", {}, 0, side->counts(), {}};
-    if (side->counts()) group.keys = {0};
+    StateGroup group{"plate_" + side->boundary() + "_energy", {}, 0, side->answers_for_plate(), {}};
+    if (side->answers_for_plate()) group.keys = {0};
     group.arrays = {
         {"work", "J/m", "of the plate's inertia since t = 0", 1, &plates_.done[k]},
         {"work_waiting", "J/m", "along the coming step, (1 - beta2) of it", 1, &plates_.waiting[k]},

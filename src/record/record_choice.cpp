@@ -105,6 +105,12 @@ Schema record_schema() {
        "time between them, in place of history_every; rounded to whole steps"},
       {"history_points", Kind::reals, "m", absent, range::any,
        "points x1,y1,x2,y2,... whose u, v and stress are followed"},
+      {"history_momentum",
+       Kind::flag,
+       "",
+       "false",
+       {},
+       "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
       {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of contact.h5; auto makes about a thousand rows"},
       {"contact_interval", Kind::real, "s", absent, range::positive,
@@ -141,6 +147,7 @@ RecordChoice read_record(const Options& options) {
     return std::optional<long>(static_cast<long>(options.integer(name)));
   });
   choice.points = read_points(options);
+  choice.momentum = options.flag("history_momentum");
   if (has_surface(options))
     choice.contact = read_cadence(options, "contact",
                                   [&](const std::string& name) { return steps_or_auto(options, name); });

@@ -91,7 +91,7 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       field_steps_(steps_of(choice.fields_times, time)),
       transverse_(transverse_of_cells(body.model(), choice)),
       window_(window_of(choice, time)),
-      observer_(body),
+      observer_(body, choice.momentum),
       probes_(body.comm(), body.model(), choice.points),
       force_(body, history_every_ > 1 ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder,
@@ -109,7 +109,7 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
                                                      choice.statistics->quantile);
   if (is_root(body.comm())) {
     history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions(),
-                                             rows(history_every_));
+                                             choice_.momentum, rows(history_every_));
     if (has_contact_)
       contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_));
   }

@@ -243,6 +243,8 @@ ROWS = {
     "history_every": Row([Answer({"OPTION": 10}, lambda run: len(run.history["time"]), becomes(21))], ALWAYS),
     "history_points": Row([Answer({"OPTION": "0,0,1e-3,1e-3,2e-3,1e-3"}, lambda run: int("points/2/u" in run.history),
                                   more)], ALWAYS),
+    # That the rows balance with the forces: test_momentum.py.
+    "history_momentum": Row([Answer({"OPTION": "true"}, lambda run: int("momentum/linear" in run.history), more)], ALWAYS),
     "history_interval": Row([Answer({"history_every": None, "OPTION": 2e-7}, lambda run: len(run.history["time"]),
                                     becomes(21))],
                             [Idle({"OPTION": 2e-7}, "-history_every contradicts -history_interval")]),

@@ -49,7 +49,9 @@ class StraightSide {
 
   /// For a checkpoint: the motion, the same on all ranks that hold nodes of the side.
   StateGroup state();
-  bool counts() const { return counts_; }  ///< whether this rank answers for the plate
+  /// Mass and moment of inertia of the plate alone, kg/m and kg m; on one rank, zero on the others.
+  PlateMotion plate_mass() const { return counts_ ? own_ : PlateMotion{}; }
+  bool answers_for_plate() const { return counts_; }  ///< true on one rank
 
   const std::string& boundary() const { return boundary_; }
   const PlateMotion& displacement() const {

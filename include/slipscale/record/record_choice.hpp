@@ -36,6 +36,7 @@ struct RecordChoice {
   std::string folder;
   Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
   std::vector<Vector2> points;  ///< m
+  bool momentum = false;        ///< whether history.h5 has those of body and plates
   Cadence fields;
   std::vector<double> fields_times;  ///< s
   FieldQuantities quantities;
