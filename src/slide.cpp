@@ -52,6 +52,7 @@ void slide(Options& options) {
   const Model::Storage storage = read_storage(options);
   end_reading(options);
   const Model model(mesh, materials, storage);
+  print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 
@@ -60,7 +61,7 @@ void slide(Options& options) {
   options.refuse_unknown();
 
   SlidingBody body(comm, model, scene, step.step);
-  for (const std::string& remark : remarks_at_start(body)) print("note: " + remark + "\n");
+  print_notes(remarks_at_start(body));
   Recorder recorder(body, record, step);
   recorder.write_run(options);
   print(recorder.forecast());
