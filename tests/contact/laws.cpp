@@ -70,7 +70,7 @@ TEST(Frictionless, HasNoTraction) {
 
 /// L* → 0 gives Coulomb, bit for bit, whatever came before: as chosen by the user, and in the laws
 /// themselves.
-TEST(Regularized, WithoutTimeIsCoulomb) {
+TEST(Regularised, WithoutTimeIsCoulomb) {
   for (const bool stored : {false, true})
     for (const FrictionLaw& law :
          {friction_law(regularized(stored, 0), 1e-9), friction_law(by_slip_rate(stored, 0), 1e-9),
@@ -94,7 +94,7 @@ TEST(Regularized, WithoutTimeIsCoulomb) {
 }
 
 /// L* → ∞: the traction of a slipping node, or the stored strength, stays what it was.
-TEST(Regularized, WithInfiniteTimeIsFrozen) {
+TEST(Regularised, WithInfiniteTimeIsFrozen) {
   for (const bool stored : {false, true}) {
     const FrictionLaw law = friction_law(regularized(stored, infinity), 1e-9);
     FrictionMemory memory{0.125, 2};
@@ -108,7 +108,7 @@ TEST(Regularized, WithInfiniteTimeIsFrozen) {
 
 /// At the start no time has passed since the memory: it is what slips, and with no length to relax over it is
 /// Coulomb's.
-TEST(Regularized, AtTheStartAnswersTheMemory) {
+TEST(Regularised, AtTheStartAnswersTheMemory) {
   for (const bool stored : {false, true})
     for (const FrictionLaw& law :
          {friction_law(regularized(stored, 2), 0), friction_law(by_slip_rate(stored, 2), 0)}) {
