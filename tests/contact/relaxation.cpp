@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "report.hpp"
 #include "slipscale/contact/friction.hpp"
 
 using namespace slipscale;
@@ -53,7 +54,7 @@ Response response(double omega, double time, int steps) {
   const int settle = steps * static_cast<int>(std::ceil(40 * time / period));
   for (int n = 1; n <= settle + steps; ++n) {
     const double t = n * dt, traction = law({far, pressure(t), 0}, memory).traction;
-    error = std::max(error, std::abs(traction - exact(t)));
+    error = worse(error, std::abs(traction - exact(t)));
     if (n <= settle) continue;
     in_phase += traction * std::sin(omega * t) * 2 / steps;
     out_of_phase += traction * std::cos(omega * t) * 2 / steps;
