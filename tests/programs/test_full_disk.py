@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 from long_runs import FOR_HOURS, RANKS, SCENE, InBlock
-from running import MPIEXEC, SLIDE, arguments_of, datasets
+from running import MPIEXEC, SECONDS, SLIDE, arguments_of, datasets
 from scenes import block
 
 
@@ -28,7 +28,7 @@ class FullDisk(InBlock):
         return job
 
     def assert_stopped(self, job, file):
-        _, err = job.communicate(timeout=60)
+        _, err = job.communicate(timeout=SECONDS)
         self.assertEqual(job.returncode, 1, err)
         self.assertRegex(err, rf"slide: out/{file} cannot be written: (flushing: )?File too large; "
                               r"see that -output_folder is writable")
@@ -59,7 +59,7 @@ class FullDisk(InBlock):
     def test_of_another_rank_than_the_first(self):
         """Only the first writes; the limit of the other must not leave both waiting."""
         job = self.limited({**FOR_HOURS, "time_end": 60e-6, "fields_every": 10}, 2, 1)
-        _, err = job.communicate(timeout=60)
+        _, err = job.communicate(timeout=SECONDS)
         self.assertEqual((job.returncode, err), (0, ""))
 
 

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from long_runs import FOR_HOURS, RANKS, SCENE, InBlock
-from running import arguments_of, datasets
+from running import SECONDS, arguments_of, datasets
 
 
 class InUse(InBlock):
@@ -31,10 +31,10 @@ class InUse(InBlock):
     def test_removed_while_running(self):
         for ranks in RANKS:
             job = self.start(FOR_HOURS, ranks)
-            self.wait_for(self.folder / "out" / "history.h5")
+            self.wait_for(self.folder / "out" / "contact.h5")  # the last file that a run makes before its first step
             shutil.rmtree(self.folder / "out", ignore_errors=True)
             shutil.rmtree(self.folder / "out", ignore_errors=True)
-            _, err = job.communicate(timeout=60)
+            _, err = job.communicate(timeout=SECONDS)
             self.assertNotEqual(job.returncode, 0)
             self.assertRegex(err, r"slide: out/(history|contact).h5 cannot be written: .*No such file or directory; ")
             if ranks == 1:
