@@ -9,6 +9,7 @@
 #include "slipscale/contact/friction.hpp"
 
 using namespace slipscale;
+using namespace slipscale::testing_support;
 
 namespace {
 
