@@ -4,7 +4,7 @@ import signal
 import subprocess
 import time
 
-from running import MPIEXEC, SLIDE, InScratch, arguments_of
+from running import MPIEXEC, SECONDS, SLIDE, InScratch, arguments_of
 from scenes import SQUEAL, block
 
 SCENE = {**SQUEAL, "time_end": 4e-6, "time_step": 2e-8}  # 200 steps
@@ -30,7 +30,7 @@ class InBlock(InScratch):
         job.communicate()
 
     def wait_for(self, path):
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + SECONDS
         while not path.exists():
-            self.assertLess(time.monotonic(), deadline, f"no {path.name} for a minute")
+            self.assertLess(time.monotonic(), deadline, f"no {path.name} for {SECONDS} s")
             time.sleep(0.05)

@@ -31,7 +31,7 @@ class InUse(InBlock):
     def test_removed_while_running(self):
         for ranks in RANKS:
             job = self.start(FOR_HOURS, ranks)
-            self.wait_for(self.folder / "out" / "contact.h5")  # the last file that a run makes before its first step
+            self.wait_for(self.folder / "out" / "run.yaml")  # written last before the first step
             shutil.rmtree(self.folder / "out", ignore_errors=True)
             shutil.rmtree(self.folder / "out", ignore_errors=True)
             _, err = job.communicate(timeout=SECONDS)
