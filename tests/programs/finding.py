@@ -3,4 +3,5 @@
 
 def report(topic, quantity, expected, found, source, order="-"):
     """What an independent source says and what the program finds; tests/verification/table.py gathers the rows."""
+    print()  # behind the dots of unittest
     print("verification", topic, quantity, expected, found, order, source, sep=" | ", flush=True)
