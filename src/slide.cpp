@@ -49,7 +49,7 @@ void print_scene(const Scene& scene) {
 std::unique_ptr<Restart> find_restart(MPI_Comm comm, const std::optional<std::string>& folder) {
   if (!folder) return nullptr;
   auto restart = std::make_unique<Restart>(comm, *folder);
-  if (!restart->note().empty()) print("note: " + restart->note() + "\n");
+  if (!restart->note().empty()) print_notes({restart->note()});
   print(format("going on with '{}' after step {}\n", *folder, restart->steps_done() - 1));
   return restart;
 }
@@ -77,6 +77,7 @@ void slide(Options& options) {
   const auto restart = find_restart(comm, record.restart);
   if (restart) restart->check(mesh, materials);
   const Model model(mesh, materials, storage);
+  print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 
@@ -91,7 +92,7 @@ void slide(Options& options) {
     restart->read(body.state());
     body.resume();
   }
-  for (const std::string& remark : remarks_at_start(body)) print("note: " + remark + "\n");
+  print_notes(remarks_at_start(body));
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
   Checkpoints checkpoints(body, recorder, scene_marks(options, mesh, materials), record.checkpoint);

@@ -217,7 +217,7 @@ int answer(int argc, char** argv, const Program& program) {
 
 void end_reading(const Options& options) {
   options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  print_notes(options.notes());
 }
 
 int run_program(int argc, char** argv, const Program& program) {
