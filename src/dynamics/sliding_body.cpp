@@ -57,8 +57,6 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       law_(friction_law(scene.friction, time_step)),
       start_law_(friction_law(scene.friction, 0)),
       physics_(bulk_physics(scene)),
-      free_motion_(free_motion_for(physics_)),
-      observed_free_motion_(free_motion_for(keeping_acceleration(physics_))),
       ledger_(scene.beta2, time_step) {
   set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
@@ -120,26 +118,14 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-template <BulkPhysics physics>
-void SlidingBody::free_motion(const StepCoefficients& step) {
+void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
   const BulkArrays arrays{
       inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
-  BulkSums sums;
-  const FreeMotion<physics> move(arrays, step, scene_.damping, scene_.body_acceleration, sums);
-  std::visit([&](const auto& pairs) { pairs.multiply(u_.data(), force_.data(), move); }, model_.stiffness);
-  bulk_ = sums;
-}
-
-template <std::size_t... Index>
-auto SlidingBody::free_motion_table(std::index_sequence<Index...>) {
-  return std::array<FreeMotionStep, sizeof...(Index)>{&SlidingBody::free_motion<BulkPhysics{
-      (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0}>...};
-}
-
-SlidingBody::FreeMotionStep SlidingBody::free_motion_for(const BulkPhysics& physics) {
-  static const auto table = free_motion_table(std::make_index_sequence<16>());
-  return table[(physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
-               (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u)];
+  FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
+                  scene_.body_acceleration);
+  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
+             model_.stiffness);
+  bulk_ = move.sums();
 }
 
 NodalState SlidingBody::state(bool with_acceleration) const {
@@ -163,7 +149,7 @@ void SlidingBody::advance(bool observed) {
   {
     static const LogEvent event("FreeMotion");
     const LogEvent::Scope scope(event);
-    (this->*(observed ? observed_free_motion_ : free_motion_))(step);
+    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
   }
   if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
   if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);

@@ -2,6 +2,7 @@
 
 #include "slipscale/base/vector2.hpp"
 #include "slipscale/dynamics/scheme.hpp"
+#include "slipscale/solid/instructions.hpp"
 #include "slipscale/solid/lanes.hpp"
 
 namespace slipscale {
@@ -32,69 +33,41 @@ struct BulkPhysics {
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
+/// What moves the nodes over one step.
+struct FreeMotionState {
+  BulkArrays arrays;
+  StepCoefficients step;
+  Lanes gravity;
+  double lag;           ///< stiffness damping over the step
+  double mass_damping;  ///< 1/s
+  // As `BulkSums`, along x and along y; each taken node after node, so that it does not depend on how many
+  // nodes are moved at a time.
+  Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
+};
+
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
-/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete.
-template <BulkPhysics physics>
+/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete;
+/// several nodes are moved at a time, to the same bits.
 class FreeMotion {
  public:
-  FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping,
-             const Vector2& gravity, BulkSums& sums)
-      : arrays_(arrays),
-        step_(step),
-        gravity_(load(gravity)),
-        lag_(damping.stiffness / step.time_step),
-        mass_damping_(damping.mass),
-        sums_(sums) {}
+  FreeMotion(const BulkPhysics& physics, Instructions instructions, const BulkArrays& arrays,
+             const StepCoefficients& step, const Damping& damping, const Vector2& gravity)
+      : move_(moving(physics, instructions)),
+        state_{arrays, step, load(gravity), damping.stiffness / step.time_step, damping.mass} {}
 
-  void operator()(int begin, int end) const {
-    // Local copies: the compiler cannot know that no store below changes the members.
-    const BulkArrays arrays = arrays_;
-    const StepCoefficients step = step_;
-    const Lanes gravity = gravity_;
-    const double lag = lag_, mass_damping = mass_damping_;
-    // u_n − u_{n−1} = Δt w_n + (β2 − ½) Δt² a_{n−1}
-    const double drift = step.displacement - step.time_step * step.time_step;
-    Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
-    for (int i = begin; i < end; ++i) {
-      const Lanes w = load(arrays.predictor[i]), internal = load(arrays.force[i]);
-      const double inverse_mass = arrays.inverse_mass[i];
-      Lanes resistance = internal;
-      if constexpr (physics.stiffness_damping)
-        resistance += lag * (internal - load(arrays.previous_force[i]));
-      if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
-      const Lanes a = gravity - resistance * inverse_mass;
-      const Lanes increment = displacement_increment(step, w, a);
-      if constexpr (physics.keeps_force()) {
-        Lanes past = step.time_step * w;
-        if constexpr (physics.numerical_dissipation) {
-          const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
-          past += drift * old_a;
-          increment_force += past * (internal - load(arrays.previous_force[i]));
-          increment_inertia += change * change / inverse_mass;
-        }
-        if constexpr (physics.stiffness_damping || physics.mass_damping) {
-          damping_past += (internal - resistance) * past;
-          damping_next += (internal - resistance) * increment;
-        }
-      }
-      store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
-      store(arrays.predictor[i], next_predictor(step, w, a));
-      if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
-    }
-    if constexpr (physics.keeps_force()) {
-      sums_.increment_force += increment_force[0] + increment_force[1];
-      sums_.increment_inertia += increment_inertia[0] + increment_inertia[1];
-      sums_.damping_past += damping_past[0] + damping_past[1];
-      sums_.damping_next += damping_next[0] + damping_next[1];
-    }
+  void operator()(int begin, int end) { move_(state_, begin, end); }
+  BulkSums sums() const {
+    const auto both = [](const Lanes& lanes) { return lanes[0] + lanes[1]; };
+    return {both(state_.increment_force), both(state_.increment_inertia), both(state_.damping_past),
+            both(state_.damping_next)};
   }
 
  private:
-  const BulkArrays arrays_;
-  const StepCoefficients step_;
-  const Lanes gravity_;
-  const double lag_, mass_damping_;
-  BulkSums& sums_;
+  using Move = void (*)(FreeMotionState&, int begin, int end);
+  static Move moving(const BulkPhysics& physics, Instructions instructions);
+
+  Move move_;
+  FreeMotionState state_;
 };
 
 }  // namespace slipscale

@@ -13,9 +13,11 @@ namespace slipscale {
 class Model {
  public:
   enum class Storage { full, single };
-  Model(const Mesh& mesh, std::vector<Material> materials, Storage storage);
+  Model(const Mesh& mesh, std::vector<Material> materials, Storage storage,
+        const StiffnessKernel& kernel = {});
 
   const Mesh& mesh;
+  const StiffnessKernel kernel;
   const std::vector<Material> materials;  ///< [regions]
   const std::vector<double> mass;         ///< [owned nodes], kg/m
   const std::variant<PairStiffness<double>, PairStiffness<float>> stiffness;

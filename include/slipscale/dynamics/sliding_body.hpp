@@ -73,12 +73,7 @@ class SlidingBody {
   bool has_touched() const;
 
  private:
-  template <BulkPhysics physics>
-  void free_motion(const StepCoefficients& step);
-  using FreeMotionStep = void (SlidingBody::*)(const StepCoefficients&);
-  static FreeMotionStep free_motion_for(const BulkPhysics& physics);
-  template <std::size_t... Index>
-  static auto free_motion_table(std::index_sequence<Index...>);
+  void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
   void find_velocity(const StepCoefficients& step);
 
   void start_force();
@@ -102,7 +97,6 @@ class SlidingBody {
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
-  FreeMotionStep free_motion_, observed_free_motion_;
   BulkSums bulk_;
   EnergyLedger ledger_;
   double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m
