@@ -3,6 +3,10 @@
 
 #include "slipscale/dynamics/bulk.hpp"
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 namespace slipscale {
 namespace {
 
