@@ -50,13 +50,14 @@ void slide(Options& options) {
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
   const Model::Storage storage = read_storage(options);
+  const StiffnessKernel kernel = read_kernel(options);
   end_reading(options);
-  const Model model(mesh, materials, storage);
+  const Model model(mesh, materials, storage, kernel);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 
   const TimeStep step = choose_step(comm, model, scene, time);
-  print(describe(step, model));
+  print(describe(step, model) + describe_kernel(comm, model));
   options.refuse_unknown();
 
   SlidingBody body(comm, model, scene, step.step);

@@ -22,6 +22,12 @@ Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage, c
       mass(lumped_mass(body, materials)),
       stiffness(assemble(body, materials, storage, how)) {}
 
+double Model::repeating(MPI_Comm comm) const {
+  auto nodes = static_cast<double>(std::visit([](const auto& each) { return each.repeating(); }, stiffness));
+  MPI_Allreduce(MPI_IN_PLACE, &nodes, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return nodes / static_cast<double>(mesh.nodes.total);
+}
+
 NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts) {
   const auto ghosts = static_cast<PetscInt>(with_ghosts ? nodes.ghosts.size() : 0);
   petsc(VecCreateGhostBlock(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(),

@@ -21,9 +21,12 @@ bool Term::operator==(const Term& other) const {
 
 GatherRuns gather_runs_with(Instructions instructions) {
   switch (instructions) {
-    case Instructions::avx512: return avx512::gather_runs;
-    case Instructions::avx2: return avx2::gather_runs;
-    default: return base::gather_runs;
+    case Instructions::avx512:
+      return avx512::gather_runs;
+    case Instructions::avx2:
+      return avx2::gather_runs;
+    default:
+      return base::gather_runs;
   }
 }
 

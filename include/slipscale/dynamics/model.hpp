@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slipscale/mesh/mesh.hpp"
+#include "slipscale/solid/eigenvalue_bound.hpp"
 #include "slipscale/solid/material.hpp"
 #include "slipscale/solid/pair_stiffness.hpp"
 
@@ -23,8 +24,10 @@ class Model {
   const std::variant<PairStiffness<double>, PairStiffness<float>> stiffness;
 
   void multiply(Vector2* displacement, Vector2* force) const {
-    std::visit([&](const auto& pairs) { pairs.multiply(displacement, force); }, stiffness);
+    std::visit([&](const auto& each) { each.multiply(displacement, force); }, stiffness);
   }
+  /// Part of the whole mesh's nodes whose rows of the stiffness repeat from node to node. Collective.
+  double repeating(MPI_Comm comm) const;
 };
 
 /// A Vec of blocks of two, one a node: the owned nodes, and behind them in the same array the ghosts if it
@@ -53,6 +56,7 @@ class NodalVector {
 struct FrequencyBounds {
   double sharp = 0;  ///< 1/s, by Lanczos on M⁻¹K, with the residual as margin, rounded up to 4 digits
   double safe = 0;   ///< 1/s, from the largest element eigenvalue
+  CriticalCell critical = {};
 };
 
 /// The largest frequency of the undamped free body, two ways. Does not depend on the number of ranks.
