@@ -132,6 +132,39 @@ NodalState SlidingBody::state(bool with_acceleration) const {
   return {u_.data(), w_.data(), with_acceleration ? a_.data() : nullptr};
 }
 
+/// What the step must not lose of the one before.
+void SlidingBody::remember(bool observed, const NodalState& moving) {
+  static const LogEvent event("BoundaryMemory");
+  const LogEvent::Scope scope(event);
+  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
+  boundary_.remember(moving, force_.data());
+  if (physics_.keeps_force()) std::swap(force_, previous_force_);
+}
+
+void SlidingBody::touch_surface(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Contact");
+  const LogEvent::Scope scope(event);
+  const double now = static_cast<double>(step_) * time_step_,
+               next = static_cast<double>(step_ + 1) * time_step_;
+  surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
+  const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
+  std::visit(
+      [&](const auto& law) {
+        contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
+      },
+      first ? start_law_ : law_);
+}
+
+void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Ledger");
+  const LogEvent::Scope scope(event);
+  ledger_.add(boundary_, contact_, moving, surface_travel_);
+  if (!straight_->empty()) ledger_.add_plates(*straight_);
+  if (physics_.keeps_force())
+    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(),
+                     first);
+}
+
 void SlidingBody::advance(bool observed) {
   const double now = static_cast<double>(step_) * time_step_,
                next = static_cast<double>(step_ + 1) * time_step_;
@@ -141,36 +174,32 @@ void SlidingBody::advance(bool observed) {
       first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
   const NodalState moving = state(observed || physics_.keeps_acceleration);
 
-  u_.end_update();
-  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
-  boundary_.remember(moving, force_.data());
-  if (physics_.keeps_force()) std::swap(force_, previous_force_);
-
   {
-    static const LogEvent event("FreeMotion");
+    static const LogEvent event("HaloEnd");
+    const LogEvent::Scope scope(event);
+    u_.end_update();
+  }
+  remember(observed, moving);
+  {
+    static const LogEvent event("StiffnessMotion");
     const LogEvent::Scope scope(event);
     free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
   }
-  if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
-  if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
-  for (const auto& side : *straight_)
-    side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
-  if (scene_.surface) {
-    surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
-    const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
-    std::visit(
-        [&](const auto& law) {
-          contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
-        },
-        first ? start_law_ : law_);
+  {
+    static const LogEvent event("LoadsSupports");
+    const LogEvent::Scope scope(event);
+    if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
+    if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
+    for (const auto& side : *straight_)
+      side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
   }
-  u_.begin_update();
-
-  ledger_.add(boundary_, contact_, moving, surface_travel_);
-  if (!straight_->empty()) ledger_.add_plates(*straight_);
-  if (physics_.keeps_force())
-    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(),
-                     first);
+  if (scene_.surface) touch_surface(first, step, moving);
+  {
+    static const LogEvent event("HaloBegin");
+    const LogEvent::Scope scope(event);
+    u_.begin_update();
+  }
+  add_to_ledger(first, step, moving);
   if (observed) find_velocity(step);
   ++step_;
   if (first) start_energy_ = local_energy().kinetic + local_energy().strain;

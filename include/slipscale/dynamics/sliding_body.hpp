@@ -74,6 +74,9 @@ class SlidingBody {
 
  private:
   void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
+  void remember(bool observed, const NodalState& moving);
+  void touch_surface(bool first, const StepCoefficients& step, const NodalState& moving);
+  void add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving);
   void find_velocity(const StepCoefficients& step);
 
   void start_force();
