@@ -73,16 +73,17 @@ void slide(Options& options) {
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
   const Model::Storage storage = read_storage(options);
+  const StiffnessKernel kernel = read_kernel(options);
   end_reading(options);
   const auto restart = find_restart(comm, record.restart);
   if (restart) restart->check(mesh, materials);
-  const Model model(mesh, materials, storage);
+  const Model model(mesh, materials, storage, kernel);
   print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 
   const TimeStep step = restart ? restart->time_step(time.end) : choose_step(comm, model, scene, time);
-  print(describe(step, model));
+  print(describe(step, model) + describe_kernel(comm, model));
   options.refuse_unknown();
 
   if (restart && is_finished(*restart, step)) return;

@@ -5,7 +5,6 @@
 
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/order_free_sum.hpp"
-#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -59,8 +58,6 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       law_(friction_law(scene.friction, time_step)),
       start_law_(friction_law(scene.friction, 0)),
       physics_(bulk_physics(scene)),
-      free_motion_(free_motion_for(physics_)),
-      observed_free_motion_(free_motion_for(keeping_acceleration(physics_))),
       ledger_(scene.beta2, time_step) {
   set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
@@ -124,29 +121,49 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-template <BulkPhysics physics>
-void SlidingBody::free_motion(const StepCoefficients& step) {
+void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
   const BulkArrays arrays{
       inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
-  const FreeMotion<physics> move(arrays, step, scene_.damping, scene_.body_acceleration,
-                                 ledger_.bulk_losses(), ledger_.weights(step_ == 0));
-  std::visit([&](const auto& pairs) { pairs.multiply(u_.data(), force_.data(), move); }, model_.stiffness);
-}
-
-template <std::size_t... Index>
-auto SlidingBody::free_motion_table(std::index_sequence<Index...>) {
-  return std::array<FreeMotionStep, sizeof...(Index)>{&SlidingBody::free_motion<BulkPhysics{
-      (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0}>...};
-}
-
-SlidingBody::FreeMotionStep SlidingBody::free_motion_for(const BulkPhysics& physics) {
-  static const auto table = free_motion_table(std::make_index_sequence<16>());
-  return table[(physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
-               (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u)];
+  const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
+                        scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
+  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
+             model_.stiffness);
 }
 
 NodalState SlidingBody::state(bool with_acceleration) const {
   return {u_.data(), w_.data(), with_acceleration ? a_.data() : nullptr};
+}
+
+/// What the step must not lose of the one before.
+void SlidingBody::remember(bool observed, const NodalState& moving) {
+  static const LogEvent event("BoundaryMemory");
+  const LogEvent::Scope scope(event);
+  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
+  boundary_.remember(moving, force_.data());
+  if (physics_.keeps_force()) std::swap(force_, previous_force_);
+}
+
+void SlidingBody::touch_surface(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Contact");
+  const LogEvent::Scope scope(event);
+  const double now = static_cast<double>(step_) * time_step_,
+               next = static_cast<double>(step_ + 1) * time_step_;
+  surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
+  const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
+  std::visit(
+      [&](const auto& law) {
+        contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
+      },
+      first ? start_law_ : law_);
+}
+
+void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Ledger");
+  const LogEvent::Scope scope(event);
+  ledger_.add(boundary_, contact_, moving, surface_travel_);
+  if (!straight_->empty()) ledger_.add_plates(*straight_);
+  if (physics_.keeps_force())
+    ledger_.correct_bulk(physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(), first);
 }
 
 void SlidingBody::advance(bool observed) {
@@ -158,35 +175,32 @@ void SlidingBody::advance(bool observed) {
       first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
   const NodalState moving = state(observed || physics_.keeps_acceleration);
 
-  u_.end_update();
-  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
-  boundary_.remember(moving, force_.data());
-  if (physics_.keeps_force()) std::swap(force_, previous_force_);
-
   {
-    static const LogEvent event("FreeMotion");
+    static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
-    (this->*(observed ? observed_free_motion_ : free_motion_))(step);
+    u_.end_update();
   }
-  if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
-  if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
-  for (const auto& side : *straight_)
-    side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
-  if (scene_.surface) {
-    surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
-    const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
-    std::visit(
-        [&](const auto& law) {
-          contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
-        },
-        first ? start_law_ : law_);
+  remember(observed, moving);
+  {
+    static const LogEvent event("StiffnessMotion");
+    const LogEvent::Scope scope(event);
+    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
   }
-  u_.begin_update();
-
-  ledger_.add(boundary_, contact_, moving, surface_travel_);
-  if (!straight_->empty()) ledger_.add_plates(*straight_);
-  if (physics_.keeps_force())
-    ledger_.correct_bulk(physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(), first);
+  {
+    static const LogEvent event("LoadsSupports");
+    const LogEvent::Scope scope(event);
+    if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
+    if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
+    for (const auto& side : *straight_)
+      side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
+  }
+  if (scene_.surface) touch_surface(first, step, moving);
+  {
+    static const LogEvent event("HaloBegin");
+    const LogEvent::Scope scope(event);
+    u_.begin_update();
+  }
+  add_to_ledger(first, step, moving);
   if (observed) find_velocity(step);
   ++step_;
   if (first) {
@@ -257,8 +271,7 @@ Energy SlidingBody::energy() const {
   energy.flowed = sums[0] + sums[1];  // the two may cancel to rounding
   energy.strain = sums[2];
   energy.body_force = sums[3] - start_gravity_;
-  for (std::size_t k = 0; k < works.size(); ++k)
-    energy.*works[k].energy += sums[bulk.size() + k];
+  for (std::size_t k = 0; k < works.size(); ++k) energy.*works[k].energy += sums[bulk.size() + k];
   close_balance(energy, start_energy_);
   return energy;
 }

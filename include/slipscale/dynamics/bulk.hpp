@@ -2,6 +2,7 @@
 
 #include "slipscale/base/vector2.hpp"
 #include "slipscale/dynamics/scheme.hpp"
+#include "slipscale/solid/instructions.hpp"
 #include "slipscale/solid/lanes.hpp"
 
 namespace slipscale {
@@ -40,69 +41,38 @@ struct BulkPhysics {
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
+/// What moves the nodes over one step.
+struct FreeMotionState {
+  BulkArrays arrays;
+  StepCoefficients step;
+  Lanes gravity;
+  double lag;           ///< stiffness damping over the step
+  double mass_damping;  ///< 1/s
+  BulkLosses losses;
+  LossWeights weights;
+};
+
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
 /// velocity, displacement; and the losses of the bulk. Called for every run of owned nodes as soon as their
-/// internal force is complete.
-template <BulkPhysics physics>
+/// internal force is complete; several nodes are moved at a time, to the same bits.
 class FreeMotion {
  public:
-  FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping,
-             const Vector2& gravity, const BulkLosses& losses, const LossWeights& weights)
-      : arrays_(arrays),
-        step_(step),
-        gravity_(load(gravity)),
-        lag_(damping.stiffness / step.time_step),
-        mass_damping_(damping.mass),
-        losses_(losses),
-        weights_(weights) {}
+  FreeMotion(const BulkPhysics& physics, Instructions instructions, const BulkArrays& arrays,
+             const StepCoefficients& step, const Damping& damping, const Vector2& gravity,
+             const BulkLosses& losses, const LossWeights& weights)
+      : move_(moving(physics, instructions)), state_{arrays,        step,
+                                                     load(gravity), damping.stiffness / step.time_step,
+                                                     damping.mass,  losses,
+                                                     weights} {}
 
-  void operator()(int begin, int end) const {
-    // Local copies: the compiler cannot know that no store below changes the members.
-    const BulkArrays arrays = arrays_;
-    const StepCoefficients step = step_;
-    const Lanes gravity = gravity_;
-    const double lag = lag_, mass_damping = mass_damping_;
-    // u_n − u_{n−1} = Δt w_n + (β2 − ½) Δt² a_{n−1}
-    const double drift = step.displacement - step.time_step * step.time_step;
-    const BulkLosses losses = losses_;
-    const LossWeights weights = weights_;
-    for (int i = begin; i < end; ++i) {
-      const Lanes w = load(arrays.predictor[i]), internal = load(arrays.force[i]);
-      const double inverse_mass = arrays.inverse_mass[i];
-      Lanes resistance = internal;
-      if constexpr (physics.stiffness_damping)
-        resistance += lag * (internal - load(arrays.previous_force[i]));
-      if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
-      const Lanes a = gravity - resistance * inverse_mass;
-      const Lanes increment = displacement_increment(step, w, a);
-      if constexpr (physics.keeps_force()) {
-        Lanes past = step.time_step * w;
-        if constexpr (physics.numerical_dissipation) {
-          const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
-          past += drift * old_a;
-          add(losses.scheme[i], weights.force * past * (internal - load(arrays.previous_force[i])) +
-                                    weights.inertia / inverse_mass * change * change);
-        }
-        if constexpr (physics.stiffness_damping || physics.mass_damping) {
-          const Lanes damper = resistance - internal;
-          const Lanes next = weights.next * increment;
-          add(losses.damping[i], damper * (weights.past * past + next));
-          if constexpr (physics.keeps_acceleration) store(losses.coming[i], damper * next);
-        }
-      }
-      store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
-      store(arrays.predictor[i], next_predictor(step, w, a));
-      if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
-    }
-  }
+  void operator()(int begin, int end) const { move_(state_, begin, end); }
 
  private:
-  const BulkArrays arrays_;
-  const StepCoefficients step_;
-  const Lanes gravity_;
-  const double lag_, mass_damping_;
-  const BulkLosses losses_;
-  const LossWeights weights_;
+  using Move = void (*)(const FreeMotionState&, int begin, int end);
+  static Move moving(const BulkPhysics& physics, Instructions instructions);
+
+  const Move move_;
+  const FreeMotionState state_;
 };
 
 }  // namespace slipscale

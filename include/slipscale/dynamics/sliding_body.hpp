@@ -5,7 +5,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "slipscale/base/state_group.hpp"
@@ -84,12 +83,10 @@ class SlidingBody {
   bool has_touched() const;
 
  private:
-  template <BulkPhysics physics>
-  void free_motion(const StepCoefficients& step);
-  using FreeMotionStep = void (SlidingBody::*)(const StepCoefficients&);
-  static FreeMotionStep free_motion_for(const BulkPhysics& physics);
-  template <std::size_t... Index>
-  static auto free_motion_table(std::index_sequence<Index...>);
+  void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
+  void remember(bool observed, const NodalState& moving);
+  void touch_surface(bool first, const StepCoefficients& step, const NodalState& moving);
+  void add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving);
   void find_velocity(const StepCoefficients& step);
 
   void start_force();
@@ -116,7 +113,6 @@ class SlidingBody {
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
-  FreeMotionStep free_motion_, observed_free_motion_;
   EnergyLedger ledger_;
   double start_gravity_ = 0;           ///< Σ m g·u_0 of all ranks, J/m
   double start_energy_ = 0;            ///< Ê at t = 0 of all ranks, J/m
