@@ -32,8 +32,9 @@ std::string continuation_fault(const std::string& path, const std::string& fault
 Hdf5File open_to_continue(const std::string& path) {
   std::error_code error;
   require(std::filesystem::exists(path, error), "it is not there");
+  recover_file(path, true);
   require(H5Fis_hdf5(path.c_str()) > 0, "it is no HDF5 file or damaged");
-  Hdf5File file = open_file(path, true);
+  Hdf5File file = open_file_to_write(path);
   expect_text(file, "program", provenance().program);
   return file;
 }

@@ -62,6 +62,21 @@ void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t by
     throw LibraryError(std::strerror(reason));
 }
 
+void Reservation::reach(const std::string& path, std::uint64_t from, std::uint64_t bytes) {
+  if (from + bytes <= end_) {  // but the file may have been removed
+    if (access(path.c_str(), F_OK) != 0) throw LibraryError(std::strerror(errno));
+    return;
+  }
+  const std::uint64_t ahead = 2 * bytes;
+  try {
+    reserve_space(path, from, ahead);
+    end_ = from + ahead;
+  } catch (const LibraryError&) {
+    reserve_space(path, from, bytes);
+    end_ = from + bytes;
+  }
+}
+
 void fill_with_zeros(const std::string& path, std::uint64_t size) {
   refuse_above_limit(size);
   const File file(path);

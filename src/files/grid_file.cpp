@@ -7,6 +7,7 @@
 #include <span>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -76,6 +77,7 @@ GridFile::GridFile(MPI_Comm comm, GridFileSource source) : comm_(comm), source_(
   std::error_code ignored;
   if (fs::is_directory(source_.path, ignored)) source_.path += "/" + source_.name;
   std::string fault;
+  if (is_root(comm_)) recover_file(path());
   if (!fs::exists(source_.path, ignored))
     fault = format("there is no file '{}' (-{}); {}", path(), source_.option, source_.cure);
   else if (H5Fis_hdf5(path().c_str()) <= 0)

@@ -47,7 +47,7 @@ std::vector<hsize_t> rows_of(hsize_t rows, const std::vector<hsize_t>& row_shape
 
 }  // namespace
 
-/// Runs `action` unless something failed before; its failure becomes the fault, and the file is cut off.
+/// Runs `action` unless something failed before; its failure becomes the fault, and nothing more is written.
 template <class Action>
 void SeriesFile::guarded(const char* what, Action action) {
   if (!sound()) return;
@@ -55,7 +55,7 @@ void SeriesFile::guarded(const char* what, Action action) {
     action();
   } catch (const std::exception& error) {
     fault_ = write_fault(path_, what + std::string(error.what()));
-    if (file_.open()) cut_off(file_);
+    if (file_.open()) abandon_file(file_);
   }
 }
 
@@ -83,7 +83,7 @@ SeriesFile::SeriesFile(std::string path, double seconds, double expected_rows,
     return;
   }
   rows_ = written_ = continued_->rows;
-  flushed_ = to_cut_ = true;
+  published_ = to_cut_ = true;
   checked([&] { file_ = open_to_continue(path_); });
 }
 
@@ -178,9 +178,8 @@ void SeriesFile::flush() {
     const std::string full = reserve_for(rows);
     write_constants();
     for (Column& column : columns_) write_batch(column, rows);
-    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
+    flush_file();
     written_ += rows;
-    flushed_ = true;
     if (!full.empty()) throw LibraryError(full);
   });
   pause_ = std::max(seconds_, seconds_since(start) / writing_share);
@@ -192,6 +191,8 @@ void SeriesFile::cut_back() {
   if (!to_cut_) return;
   for (const Column& column : columns_)
     hdf5(H5Dset_extent(column.dataset, rows_of(written_, column.row_shape).data()), column.path);
+  flush_file();  // what comes next may use the room of what was cut off
+  let_data_through(file_);
   to_cut_ = false;
 }
 
@@ -218,7 +219,7 @@ void SeriesFile::reserve(hsize_t rows) {
     bytes += rows * column.bytes + column.chunk + column.bytes + index_bytes;
   if (written_ == 0) bytes += header_bytes * columns_.size();
   for (const Constant& each : constants_) bytes += constant_bytes + sizeof(double) * each.values.size();
-  reserve_space(path_, size, bytes);
+  room_.reach(published_ ? path_ : partial_path(path_), size, bytes);
 }
 
 void SeriesFile::write_batch(Column& column, hsize_t rows) {
@@ -237,24 +238,25 @@ void SeriesFile::write_batch(Column& column, hsize_t rows) {
   column.batch.clear();
 }
 
+void SeriesFile::flush_file() {
+  hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
+  check_written(file_);
+  if (!published_) publish_file(file_, path_);
+  published_ = true;
+}
+
 void SeriesFile::close() {
   if (!file_.open()) return;
   flush();
-  hsize_t size = 0;
   guarded("closing: ", [&] {
     for (Column& column : columns_)
       if (column.dataset.close() < 0) throw LibraryError(hdf5_message());
-    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
-    hdf5(H5Fget_filesize(file_, &size), "size");
-    flushed_ = true;
+    flush_file();
   });
   columns_.clear();
-  const bool closed = file_.close() >= 0;
-  if (!flushed_) (void)std::remove(path_.c_str());  // not a file that anybody could read
-  guarded("closing: ", [&] {
-    if (!closed) throw LibraryError(hdf5_message());
-    give_back_space(path_, size);
-  });
+  guarded("closing: ", [&] { close_file(file_); });
+  (void)file_.close();
+  if (!published_) (void)std::remove(partial_path(path_).c_str());  // not a file that anybody could read
 }
 
 std::vector<double> SeriesFile::read(int id) {

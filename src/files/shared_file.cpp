@@ -87,10 +87,11 @@ hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIV
 SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
     : comm_(comm), root_(is_root(comm)), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
-  if (appearance_ == Appearance::continued) examine([&](hid_t) { file_ = open_to_continue(path_); });
+  published_ = appearance_ == Appearance::continued;
+  if (published_) examine([&](hid_t) { file_ = open_to_continue(path_); });
   write_together(comm_, path_, [&] {
     if (!root_) return;
-    if (!file_.open()) file_ = create_file(name());
+    if (!file_.open()) file_ = create_file(path_);
     forget_soon(file_);
   });
   try {
@@ -115,13 +116,21 @@ void SharedFile::change(const std::function<void(hid_t file)>& action) {
   on_root([&] { action(file_); });
 }
 
-SharedFile::~SharedFile() {
-  if (!finished_ && appearance_ == Appearance::whole) discard();
+void SharedFile::end_changes() {
+  flush();
+  on_root([&] { let_data_through(file_); });
 }
 
+SharedFile::~SharedFile() {
+  if (!finished_) discard();
+}
+
+/// What was not flushed, or all where nobody knows the file yet.
 void SharedFile::discard() {
+  if (!root_) return;
+  if (file_.open()) abandon_file(file_);
   (void)file_.close();
-  if (root_) (void)std::remove(name().c_str());
+  if (!published_) (void)std::remove(name().c_str());
 }
 
 void SharedFile::on_root(const std::function<void()>& action) {
@@ -130,8 +139,9 @@ void SharedFile::on_root(const std::function<void()>& action) {
     if (!file_.open()) throw LibraryError("an earlier write failed");
     try {
       action();
+      if (file_.open()) check_written(file_);
     } catch (const LibraryError&) {
-      cut_off(file_);
+      if (file_.open()) abandon_file(file_);
       (void)file_.close();
       throw;
     }
@@ -153,6 +163,7 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
                  if (!fault.empty()) return;
                  try {
                    write_rows(dataset, slice.shape, begin, count, type, piece, about.path);
+                   check_written(file_, about.path);
                  } catch (const LibraryError& error) {
                    fault = error.what();
                  }
@@ -257,18 +268,23 @@ void SharedFile::reserve(double bytes) {
 }
 
 void SharedFile::flush() {
-  on_root([&] { hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing"); });
+  on_root([&] {
+    hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
+    check_written(file_);
+    if (!published_ && appearance_ == Appearance::growing) publish();
+  });
+}
+
+void SharedFile::publish() {
+  publish_file(file_, path_);
+  published_ = true;
 }
 
 void SharedFile::finish() {
+  flush();
   on_root([&] {
-    hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
-    hsize_t size = 0;
-    hdf5(H5Fget_filesize(file_, &size), "size");
-    if (file_.close() < 0) throw LibraryError(hdf5_message());
-    give_back_space(name(), size);
-    if (appearance_ == Appearance::whole && std::rename(name().c_str(), path_.c_str()) != 0)
-      throw LibraryError(std::strerror(errno));
+    close_file(file_);
+    if (!published_) publish();
   });
   finished_ = true;
 }

@@ -137,7 +137,7 @@ void FieldsFile::cut_back() {
       if (const std::string group = "/frames/" + name; order(group) >= order(group_of(frames())))
         hdf5(H5Ldelete(file, group.c_str(), H5P_DEFAULT), group);
   });
-  file_->flush();
+  file_->end_changes();
   to_cut_ = false;
 }
 

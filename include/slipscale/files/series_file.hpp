@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slipscale/files/disk_space.hpp"
 #include "slipscale/files/hdf5.hpp"
 
 namespace slipscale {
@@ -105,17 +106,19 @@ class SeriesFile {
   std::string reserve_for(hsize_t& rows);
   void reserve(hsize_t rows);
   void cut_back();
+  void flush_file();
   void write_constants();
   void write_batch(Column& column, hsize_t rows);
 
   std::string path_, fault_, refusal_;
   Hdf5File file_;
+  Reservation room_;
   std::vector<Column> columns_;
   std::vector<Constant> constants_;  ///< not yet on disk
   hsize_t rows_ = 0, written_ = 0;
   std::size_t row_bytes_ = 0;
   double seconds_, pause_, expected_rows_;
-  bool flushed_ = false;
+  bool published_ = false;
   std::optional<Continue> continued_;
   bool to_cut_ = false;  ///< there may be rows behind those that count
   Clock::time_point last_ = Clock::now();
