@@ -72,3 +72,8 @@ def best_level(case, way):
 
 def after(found):
     return {**{f"after_{name}": found[name] for name in COMPARED}, "folder": found["folder"]} if found else {}
+
+
+if __name__ == "__main__":
+    raise SystemExit("contrast.adapted is a library, no command: snakemake --snakefile runs/contrast/Snakefile runs "
+                     "the study.")

@@ -5,6 +5,7 @@ import numpy as np
 from contrast.adapted import WAYS, before_of, best_level, cases_of
 from contrast.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
 from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
 
 GIGA, KILO = 1e-9, 1e-3
@@ -159,12 +160,12 @@ def seen_line(cases):
 
 
 def run_table(rows):
-    header = [*RUN, "amplitude", "frequency [kHz]", "T / N", "stick", "open", "power ratio", "settled", "regime",
+    header = [*RUN, "amplitude", "frequency [kHz]", "T / N", "stick", "open", "power ratio", "amplitude ratio", "regime",
               "C11, C22, C66 [GPa]", "distance"]
     return markdown(header, [
         [*(row[name] for name in RUN), f"{row['amplitude']:.3f}", f"{KILO * row['frequency']:.0f}",
          f"{row['friction']:.4f}", f"{row['stick']:.3f}", f"{row['open']:.3f}", f"{row['power_ratio']:.3f}",
-         f"{row['settled']:.2f}", row["regime"],
+         f"{row['amplitude_ratio']:.2f}", row["regime"],
          ", ".join(f"{GIGA * row[name]:.2f}" for name in ("C11", "C22", "C66")) if row["C11"] else "",
          f"{row['spectrum_distance']:.2f}" if row["spectrum_distance"] else ""]
         for row in rows if row["model"] != "adapted" and row["status"] == "ok"])
@@ -203,6 +204,6 @@ Adapting something else (`density` the frequency by the density in kg/m³, `then
 {folded("All runs", run_table(rows))}"""
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 publish(report(read_csv(job.input.table), 1e3 * float(job.params.block)), job.output[0], job.params.readme,
         [job.input.scatter, job.input.adapted])

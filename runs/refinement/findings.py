@@ -185,3 +185,8 @@ def report(rows, unfolded=None):
         else:
             text += folded(title_of(part), sequence_text(part)) + "\n"
     return text + folded("All runs", every_run(rows))
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.findings is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
+                     "the study.")

@@ -115,3 +115,8 @@ def reference_of(sequence, finest):
     if "size" in given and "step" not in given and "step_per_size" in sequence:
         given["step"] = steps_of(sequence, [given["size"]])[0]
     return {**finest, **given}
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.sequences is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
+                     "the study.")

@@ -80,3 +80,12 @@ def say_what_is_run():
 # each of which makes one.
 rule part:
     input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config.get("part", JOB))]
+
+
+# The study fails if not one of its runs came to its end, after its table and its report are there.
+rule ended:
+    input:
+        table=f"{OUT}/table.csv",
+        report=f"{OUT}/report.md"
+    output: f"{OUT}/ended.txt"
+    shell: PYTHON + " -m slipscale.running.ended {input.table:q} {output:q}"

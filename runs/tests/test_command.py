@@ -2,9 +2,11 @@
 
 import contextlib
 import io
+import os
 import subprocess
 import sys
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from slipscale import command
@@ -21,6 +23,14 @@ def said_by(*words):
         except SystemExit as stop:
             code = stop.code
     return code, out.getvalue(), err.getvalue()
+
+
+def started(job):
+    """What a file below runs/ says when Python is told to run it."""
+    file, way = job
+    words = ["-m", ".".join(file.relative_to(RUNS).with_suffix("").parts)] if way == "-m" else [str(file)]
+    return file, way, subprocess.run([sys.executable, *words], cwd=RUNS, capture_output=True, text=True,
+                                     env={**os.environ, "PYTHONPATH": str(RUNS)})
 
 
 class Command(unittest.TestCase):
@@ -49,11 +59,17 @@ class Command(unittest.TestCase):
             self.assertIn(sentence, err)
             self.assertTrue(err.startswith("slipscale"), err)
 
-    def test_modules_of_the_library_are_no_commands(self):
-        for module in ("measuring.regime", "measuring.distance", "pictures.picture", "reading.mesh"):
-            done = subprocess.run([sys.executable, "-m", f"slipscale.{module}"], cwd=RUNS, capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stdout), (2, ""), module)
-            self.assertIn("is a library, no command", done.stderr)
+    def test_what_is_no_command_says_so(self):
+        """Every module, started as `python3 -m` would and as a file: a command asks for its words, all else says in one
+        sentence what the command is. None does nothing and ends well."""
+        files = [file for file in RUNS.rglob("*.py") if not {"tests", "profiles"} & set(file.relative_to(RUNS).parts)
+                 and not file.name.startswith("__")]
+        self.assertGreater(len(files), 70)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for file, way, done in pool.map(started, [(file, way) for file in files for way in ("-m", "file")]):
+                self.assertNotEqual(done.returncode, 0, (file, way))
+                self.assertEqual(done.stdout, "", (file, way))
+                self.assertRegex(done.stderr, r"^[^\n]*(no command: |( -h says more\)))[^\n]*\n$", (file, way))
 
     def test_measuring_and_reading_draw_nothing(self):
         listed = "import sys, slipscale.measuring.regime, slipscale.measuring.comparing, slipscale.measuring.surface_motion"

@@ -4,10 +4,12 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 import slipscale
+from slipscale.mistakes import Mistake
 from tests import fake_run
 
 
@@ -70,6 +72,12 @@ class OfARun(unittest.TestCase):
     def test_a_name_that_is_none(self):
         with self.assertRaisesRegex(AttributeError, "it has .*Run.*slide"):
             slipscale.Rum
+
+
+    def test_a_table_without_pandas(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            with self.assertRaisesRegex(Mistake, r"^run\.table\(\) needs pandas, which .* has not: install [^\n]*$"):
+                self.run_.table()
 
 
 class Started(unittest.TestCase):

@@ -83,3 +83,7 @@ def settling(rows):
     grows = after > GROWTH * before and after > ROUNDING_OF_SUMS * abs(mean)
     return Settling(float(step / abs(mean)) if mean != 0 else 0.0, float(after / before) if before > 0 else 1.0,
                     bool(same_mean and not grows and (not vibrates or same_size)))
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.measuring.averages is a library, no command: slipscale -h lists the commands.")

@@ -3,13 +3,14 @@
     slipscale compare FOLDER FOLDER [FOLDER …] [--window FROM TO] [--point 0] [--picture compared.png]
 
 All are measured over one window, by default the second half of the shortest run. Means have standard errors from blocks of
-the window; a difference from the first run counts where it is more than three standard errors of it. Distances of spectra
+the window; a difference from the first run counts where it is more than three standard errors of it, which are never taken for less
+than rounding. Distances of spectra
 and of phase portraits stand beside those of the halves of the first run's window from each other, which is what scatter
 alone makes. Options in which the runs differ are listed.
 """
 
 from slipscale.measuring.averages import with_error
-from slipscale.measuring.comparing import UNITS, changed_options, difference, distances, read_all
+from slipscale.measuring.comparing import UNITS, changed_options, differences, distances, read_all
 from slipscale.measuring.window import MICRO
 from slipscale.parser import Parser
 
@@ -24,7 +25,7 @@ def judged(found):
     """A Difference as text."""
     if found.differs is None:
         return f"{found.value:+.3g}"
-    times = f"{abs(found.value) / found.error:.2g}" if found.error > 0 else "many" if found.value else "0"
+    times = f"{abs(found.value) / found.error:.2g}" if found.error > 0 else "0"
     return f"{found.value:+.3g}, {times} errors: {'differs' if found.differs else 'the same'}"
 
 
@@ -32,12 +33,12 @@ def numbers(runs):
     """The table of means, and of differences from the first run."""
     first, *others = runs
     rows = [["", *(run.name for run in runs), *(f"{run.name} less {first.name}" for run in others)]]
+    found = [differences(run, first) for run in others]
     for name, unit in UNITS.items():
         if name in first.means:
             rows.append([f"{name} [{unit}]",
                          *(with_error(*run.means[name]) if name in run.means else "-" for run in runs),
-                         *(judged(difference(run.means[name], first.means[name])) if name in run.means else "-"
-                           for run in others)])
+                         *(judged(each[name]) if name in each else "-" for each in found)])
     rows.append(["amplitude [1]", *(f"{run.amplitude:.3g}" for run in runs), *("" for _ in others)])
     rows.append(["frequency [kHz]", *(f"{run.frequency * 1e-3:.4g}" for run in runs),
                  *(f"{(run.frequency - first.frequency) * 1e-3:+.3g}" for run in others)])

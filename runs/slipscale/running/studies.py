@@ -1,5 +1,6 @@
 """What a study is asked to do: its study.yaml, what is laid over it, and how many runs that makes."""
 
+import sys
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
@@ -68,6 +69,16 @@ def what_is_run(config, runs):
         lines.append(f"of study.yaml and not of what is laid over it: {', '.join(kept)}; `replace: [runs]` there leaves "
                      "them out")
     return "\n".join(lines)
+
+
+def started_by_snakemake(names):
+    """The job of a script of a Snakefile, which Snakemake puts among the `names` of the script; without, the script says
+    what starts it."""
+    if "snakemake" in names:
+        return names["snakemake"]
+    folder = Path(names["__file__"]).resolve().parent.name
+    sys.exit(f"{Path(names['__file__']).name} is a part of a Snakefile, no command: snakemake --snakefile "
+             f"runs/{folder}/Snakefile runs the study.")
 
 
 def finder(top):

@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 
 from slipscale import command
-from slipscale.measuring.comparing import changed_options, difference, distances, read_all
+from slipscale.measuring.comparing import changed_options, difference, differences, distances, read_all
 from slipscale.reading import UnreadableRun
 from tests import fake_run
 
@@ -38,6 +38,17 @@ class Compared(unittest.TestCase):
         self.assertAlmostEqual(distances(rougher, one)["spectrum"][0], 0.1, delta=1e-9)
         self.assertGreater(distances(rougher, one)["portrait"][1], 0)
         self.assertEqual(changed_options([one, two, rougher]), {"friction_coefficient": [0.5, 0.5, 0.55]})
+
+    def test_rounding_is_no_difference(self):
+        """Blocks that are equal to the last bit have no error, yet sums are known to 1e-10 of what is summed only."""
+        self.assertFalse(difference((2.0, 0.0), (2.0 + 1e-12, 0.0)).differs)
+        self.assertTrue(difference((2.0, 0.0), (2.0 + 1e-8, 0.0)).differs)
+        self.assertLess(difference((2.0, 0.0), (2.1, 1e-14)).value / difference((2.0, 0.0), (2.1, 1e-14)).error, 1e10)
+        self.assertIsNone(difference((2.0, float("nan")), (2.0, 0.0)).differs)
+        one, two = read_all(self.folders[:2])
+        for run, force in ((one, 1e-9), (two, -3e-9)):  # of a normal force of 7.5e4 N/m: no friction at all
+            run.means["tangential_force"] = force, 1e-20
+        self.assertFalse(differences(two, one)["tangential_force"].differs)
 
     def test_the_command(self):
         said, picture = io.StringIO(), self.folders[0].parent / "a b.png"

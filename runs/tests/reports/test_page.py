@@ -59,6 +59,17 @@ class OfARun(unittest.TestCase):
                      "mpirun -n 2 slide -options_file_yaml", "friction_coefficient", "stable_step", "impact loss"):
             self.assertTrue(said in text, said)
         self.assertFalse("had not settled" in text or "misses" in text)
+        cards = dict(re.findall(r'<div class="card"><b>(.*?)</b><span>(.*?)</span>', text))
+        told = {what.split(";")[0]: number for number, what in cards.items()}
+        self.assertEqual(told["settled"], "yes")
+        for share in ("sticks", "slips", "is open"):
+            self.assertRegex(told[f"of the contact {share}"], r"^\d+\.\d+ ± 0\.\d+ %$")
+
+    def test_few_rows_have_cards_too(self):
+        fake_run.write_run(self.folder, end=1e-6)
+        text = self.text()
+        for said in ("not known", "mean tangential over mean normal force", "a spectrum needs 32"):
+            self.assertIn(said, text)
 
     def test_warns(self):
         (self.folder / "summary.yaml").write_text(
