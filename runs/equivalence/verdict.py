@@ -129,9 +129,10 @@ def same(frequencies):
 
 def verdict(composites, homogenised):
     """One of VERDICTS on two lists of Run. Equivalent means that the morphologies are alike (their scatter is below
-    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: a run has not settled,
-    by the rule of `measures` and of summary.yaml; some vibrate and others do not; a run has two modes or the morphologies have different ones; the block has another
-    frequency than the morphologies; morphologies are not alike; its spectrum is as much apart at the same frequency."""
+    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: a run has not
+    settled, by the rule of `measures` and of summary.yaml; some vibrate and others do not; a run has two modes or the
+    morphologies have different ones; the block has another frequency than the morphologies; morphologies are not alike;
+    its spectrum is as much apart at the same frequency."""
     runs = [*composites, *homogenised]
     settled = all(run.values["settled"] for run in runs)
     if not any(run.vibrates for run in runs):
@@ -157,10 +158,10 @@ def furthest_from_one(ratios):
 
 
 def compared(composites, homogenised):
-    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`, whether
-    all are, and `amplitude_ratio`, that of the run in which it is furthest from 1; the modes in Hz as text; and for each measure
-    `_apart` (of the typical homogenised block), `_limit` and `_within`, for a number also `_composites` (mean) and
-    `_homogenised` (median)."""
+    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`,
+    whether all are, and `amplitude_ratio`, that of the run in which it is furthest from 1; the modes in Hz as text; and
+    for each measure `_apart` (of the typical homogenised block), `_limit` and `_within`, for a number also
+    `_composites` (mean) and `_homogenised` (median)."""
     row = {"verdict": verdict(composites, homogenised), "composites": len(composites), "homogenised": len(homogenised),
            "settled": all(run.values["settled"] for run in (*composites, *homogenised)),
            "amplitude_ratio": furthest_from_one([run.values["amplitude_ratio"] for run in (*composites, *homogenised)])}
@@ -178,8 +179,8 @@ def compared(composites, homogenised):
 
 def points(rows, folders, windows):
     """Rows of a table of runs (dicts, with the options `model`, composite or homogenised, `seed` and `window`) and
-    their folders give a row for each point, which is all other options, that both models were run at. `windows` are pairs in
-    s by name. A point with less than two morphologies that ran has the status failed."""
+    their folders give a row for each point, which is all other options, that both models were run at. `windows` are
+    pairs in s by name. A point with less than two morphologies that ran has the status failed."""
     groups = {}
     for row, folder in zip(rows, folders):
         place = {name: row[name] for name in list(row)[:list(row).index("status")] if name not in ("model", "seed")}

@@ -35,8 +35,9 @@ def signal(history, boundary, name, point=0):
 
 
 def average_rows(folder, window, names, point=0, parts=4):
-    """A row for each of `names`, of regime.MEASURES that are numbers with a meaning of their own: its value over the window; `parts`, its values in as many parts of
-    the window, as text; and `scatter`, the standard error of their mean, zero for one part."""
+    """A row for each of `names`, of regime.MEASURES that are numbers with a meaning of their own: its value over the
+    window; `parts`, its values in as many parts of the window, as text; and `scatter`, the standard error of their
+    mean, zero for one part."""
     known = [name for name, (unit, _) in MEASURES.items() if unit and not name.endswith("_error")]
     if unknown := [name for name in names if name not in known]:
         raise UnreadableRun(f"There is no average {unknown[0]}: known are {', '.join(known)}.")

@@ -1,4 +1,5 @@
-"""Sequences of runs that differ in the size of the elements, the time step, or both: what a refinement study is made of.
+"""Sequences of runs that differ in the size of the elements, the time step, or both: what a refinement study is made
+of.
 
 A sequence is a dict of these entries (runs/refinement/study.yaml spells several out):
 

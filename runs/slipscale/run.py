@@ -57,7 +57,8 @@ class Frame:
     time s; coordinates [np, 2] m; triangles [nt, 3] point numbers, a quadrilateral gives two; cell_of_triangle [nt];
     region [nc] index into region_names; u [np, 2] m; v [np, 2] m/s; stress [nc, 3] Pa and strain [nc, 3]
     (xx, yy, xy; engineering shear); stress_zz, von_mises, principal_high and principal_low [nc] Pa.
-    `axes.tripcolor(*frame.coordinates.T, frame.triangles, facecolors=frame.stress[frame.cell_of_triangle, 1])` draws σ_yy.
+    `axes.tripcolor(*frame.coordinates.T, frame.triangles, facecolors=frame.stress[frame.cell_of_triangle, 1])` draws
+    σ_yy.
     """
 
     time: float
@@ -199,8 +200,8 @@ class Run:
         return measures(self.folder, self.window(from_, to))
 
     def table(self):
-        """Every column of history.h5 that has one number a row, as a pandas.DataFrame indexed by time (s). Raises Mistake
-        where there is no pandas."""
+        """Every column of history.h5 that has one number a row, as a pandas.DataFrame indexed by time (s). Raises
+        Mistake where there is no pandas."""
         try:
             import pandas
         except ModuleNotFoundError as missing:

@@ -8,8 +8,8 @@ from slipscale.running.table import collect, write_csv
 
 
 def result(folder, window):
-    """What a run did in `window` (s), or by default in its second half, a failure if that cannot be measured; of few rows
-    what they tell, and the reason why the rest is empty."""
+    """What a run did in `window` (s), or by default in its second half, a failure if that cannot be measured; of few
+    rows what they tell, and the reason why the rest is empty."""
     try:
         time = History(folder).time
         begin, end = choose_window(time, window, FEWEST_FOR_MEANS)

@@ -7,8 +7,8 @@ Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. 
 
     scaling    T such that ωT is that of the heterogeneous run, ω the dominant frequency of friction
     frequency  T such that at the frequency through which most passes, the homogeneous surface moving and being
-               pressed as it does, the power of the heterogeneous run passes (slipscale.adapting.relaxation); takes contact.h5
-               of both runs
+               pressed as it does, the power of the heterogeneous run passes (slipscale.adapting.relaxation); takes
+               contact.h5 of both runs
     search     T at which the power into the body is that of the heterogeneous run: a scan, then false position.
                Where power is flat or not monotone over the scan, or never equal, mean friction is matched in its
                place, else the frequency; --match asks for one of them, whatever the scan looks like

@@ -57,7 +57,8 @@ def spelled_out(options):
 
 
 def value_of(options, parameter):
-    """A number among the options; the relaxation time may stand there as the length L* = T |V|. Raises UnreadableRun."""
+    """A number among the options; the relaxation time may stand there as the length L* = T |V|. Raises
+    UnreadableRun."""
     try:
         if parameter == "friction_time" and "friction_time" not in options:
             return float(options["friction_length"]) / abs(float(options["surface_speed"]))
@@ -67,8 +68,8 @@ def value_of(options, parameter):
 
 
 class Trials:
-    """Runs of `program` (a list of words) with `options` in folders below `output`, each compared over `window` (s) with
-    `reference`, a spectrum as of `regime.friction_spectrum`."""
+    """Runs of `program` (a list of words) with `options` in folders below `output`, each compared over `window` (s)
+    with `reference`, a spectrum as of `regime.friction_spectrum`."""
 
     def __init__(self, program, options, output, window, reference):
         self.program, self.options, self.output = program, options, Path(output)

@@ -89,8 +89,8 @@ def read_compared(folder, window, point=0, name=None):
 
 @dataclass
 class Difference:
-    """Of a mean of a run from that of the first: `value`, its standard error `error`, no less than rounding makes it, and
-    whether it is beyond DOUBT of them; None where there is no error to hold it against."""
+    """Of a mean of a run from that of the first: `value`, its standard error `error`, no less than rounding makes it,
+    and whether it is beyond DOUBT of them; None where there is no error to hold it against."""
 
     value: float
     error: float

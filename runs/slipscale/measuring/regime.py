@@ -49,8 +49,8 @@ MEASURES = {  # name: (unit, what it is)
 
 
 def rows_of(history, window, fewest=FEWEST_ROWS):
-    """The rows in the window (two times in s). Raises UnreadableRun when they are fewer than `fewest`, by default too few
-    for a spectrum."""
+    """The rows in the window (two times in s). Raises UnreadableRun when they are fewer than `fewest`, by default too
+    few for a spectrum."""
     rows = rows_in(history.time, window)
     if rows.stop - rows.start < fewest:
         raise UnreadableRun(too_few(history.time, window, fewest))
@@ -66,8 +66,8 @@ def friction_signal(history, boundary, rows):
 
 def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
     """The name that Peillex, Baillet, Berthier (IJTC2007-44438) give to what the contact does over time; steady where
-    nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip hardly
-    moves the mean friction, but it takes power. Open where the body does not touch at all."""
+    nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip
+    hardly moves the mean friction, but it takes power. Open where the body does not touch at all."""
     if open_ >= 1 - 1e-9:
         return "open"
     if amplitude <= STEADY * abs(friction) and abs(power_ratio) <= STEADY:
@@ -77,9 +77,9 @@ def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
 
 
 def measures(folder, window, point=0, fewest=FEWEST_ROWS):
-    """MEASURES of the run in `folder` over `window` (s); those of the probe `point` only if it was recorded. What so many
-    rows do not tell is None: errors of fewer than 10, and where `fewest` is below FEWEST_ROWS, the frequency. Raises
-    UnreadableRun."""
+    """MEASURES of the run in `folder` over `window` (s); those of the probe `point` only if it was recorded. What so
+    many rows do not tell is None: errors of fewer than 10, and where `fewest` is below FEWEST_ROWS, the frequency.
+    Raises UnreadableRun."""
     history, summary = History(folder), Summary(folder)
     rows = rows_of(history, window, fewest)
     boundary = summary.measured_boundary(history)

@@ -46,7 +46,8 @@ def names_of(file):
 
 
 def other_scene(reference, homogeneous):
-    """Options of load, friction and so on that both runs have and in which they differ, as text; '' if there are none."""
+    """Options of load, friction and so on that both runs have and in which they differ, as text; '' if there are
+    none."""
     own, other = (Summary(folder).options for folder in (reference, homogeneous))
     changed = [f"{name} {own[name]} and {other[name]}" for name in own
                if name.startswith(OF_A_SCENE) and name in other and own[name] != other[name]]

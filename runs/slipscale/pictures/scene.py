@@ -3,8 +3,8 @@
     slipscale scene scene.yaml scene.png [--mesh block.msh] [--set boundary_top_y=-2e-6]
     slipscale scene out/first scene.png          the scene of a run, from its run.yaml
 
-The first argument is the YAML file that slide is given, or the folder of a run. Exits with code 2 and one sentence when there
-is nothing to draw.
+The first argument is the YAML file that slide is given, or the folder of a run. Exits with code 2 and one sentence when
+there is nothing to draw.
 """
 
 from pathlib import Path

@@ -1,6 +1,7 @@
 """Meshes of gmsh, MSH 4.1 in text or binary, as far as a picture of a scene needs them.
 
-Format: gmsh's reference manual, section 9 (MSH file format). Parts belong to the physical groups that gmsh's $Entities give them.
+Format: gmsh's reference manual, section 9 (MSH file format). Parts belong to the physical groups that gmsh's $Entities
+give them.
 """
 
 import struct

@@ -2,11 +2,10 @@
 
     slipscale compare FOLDER FOLDER [FOLDER …] [--window FROM TO] [--point 0] [--picture compared.png]
 
-All are measured over one window, by default the second half of the shortest run. Means have standard errors from blocks of
-the window; a difference from the first run counts where it is more than three standard errors of it, which are never taken for less
-than rounding. Distances of spectra
-and of phase portraits stand beside those of the halves of the first run's window from each other, which is what scatter
-alone makes. Options in which the runs differ are listed.
+All are measured over one window, by default the second half of the shortest run. Means have standard errors from blocks
+of the window; a difference from the first run counts where it is more than three standard errors of it, which are never
+taken for less than rounding. Distances of spectra and of phase portraits stand beside those of the halves of the first
+run's window from each other, which is what scatter alone makes. Options in which the runs differ are listed.
 """
 
 from slipscale.measuring.averages import with_error

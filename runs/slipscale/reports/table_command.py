@@ -3,8 +3,8 @@
     slipscale table out/sweep/table.csv [--columns friction_coefficient friction regime] [--where size=0.000125]
         [--sort friction] [--markdown]
 
-Without --columns: the options that were varied, and what was found. Rows that failed, or lack something, keep their reason. A
-folder may be given in place of its table.csv.
+Without --columns: the options that were varied, and what was found. Rows that failed, or lack something, keep their
+reason. A folder may be given in place of its table.csv.
 """
 
 from pathlib import Path

@@ -72,8 +72,8 @@ def what_is_run(config, runs):
 
 
 def started_by_snakemake(names):
-    """The job of a script of a Snakefile, which Snakemake puts among the `names` of the script; without, the script says
-    what starts it."""
+    """The job of a script of a Snakefile, which Snakemake puts among the `names` of the script; without, the script
+    says what starts it."""
     if "snakemake" in names:
         return names["snakemake"]
     folder = Path(names["__file__"]).resolve().parent.name
@@ -82,7 +82,8 @@ def started_by_snakemake(names):
 
 
 def finder(top):
-    """A function that finds a file from where the user stands, else below `top`; of no file it gives the path as it is."""
+    """A function that finds a file from where the user stands, else below `top`; of no file it gives the path as it
+    is."""
     def found_from_here(path):
         return str(Path(top) / path) if not Path(path).exists() and (Path(top) / path).exists() else str(path)
 

@@ -1,4 +1,5 @@
-"""slipscale.adapting.adapt with a made-up `slide` whose power falls with the relaxation time, and where it has to fail."""
+"""slipscale.adapting.adapt with a made-up `slide` whose power falls with the relaxation time, and where it has to
+fail."""
 
 import contextlib
 import io
