@@ -45,5 +45,5 @@ def fold(values):
 
 
 if __name__ == "__main__":
-    raise SystemExit("contrast.morphologies is a library, no command: snakemake --snakefile runs/contrast/Snakefile runs "
-                     "the study.")
+    raise SystemExit("contrast.morphologies is a library, no command: snakemake --snakefile runs/contrast/Snakefile "
+                     "runs the study.")

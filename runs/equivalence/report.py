@@ -85,7 +85,8 @@ def counts(points):
             yield f"Memory {memory}, block {block}, {len(found)} points: {said}."
     moving = sum(not is_true(row["settled"]) for row in points)
     if points:
-        yield f"At {moving} of {len(points)} points some run had not settled in its window, by the rule of summary.yaml."
+        yield (f"At {moving} of {len(points)} points some run had not settled in its window, by the rule of "
+               "summary.yaml.")
 
 
 def worst_of(one, other):
@@ -126,10 +127,11 @@ def report(rows, points, figures):
              *(f"No verdict: {', '.join(f'{name} {row[name]}' for name in POINT)}: {row['reason']}"
                for row in points if row["status"] != "ok")]
     floors = ", ".join(f"{name.replace('_', ' ')} {floor:g}" for name, floor in FLOORS.items())
-    return f"""Several morphologies and the homogenised block of each; `refine` 1 halves the mesh. Distances: of the typical (median)
-homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the others, which is what
-is allowed. Numbers: mean of the morphologies → typical homogenised block, in brackets how far apart they may be. Bold is
-what lies outside.
+    return f"""Several morphologies and the homogenised block of each; `refine` 1 halves the mesh. Distances: of the
+typical (median) homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the
+others, which is what is allowed. Numbers: mean of the morphologies → typical homogenised block, in brackets how far
+apart they may be. Bold is what lies outside. A run has settled by the rule of summary.yaml; amplitude ratio: second
+half of the window over the first, of a point that furthest from 1.
 
 {figure_table(shown)}
 {bullets(lines)}

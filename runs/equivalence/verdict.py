@@ -202,5 +202,5 @@ def points(rows, folders, windows):
 
 
 if __name__ == "__main__":
-    raise SystemExit("equivalence.verdict is a library, no command: snakemake --snakefile runs/equivalence/Snakefile runs "
-                     "the study.")
+    raise SystemExit("equivalence.verdict is a library, no command: snakemake --snakefile runs/equivalence/Snakefile "
+                     "runs the study.")

@@ -67,5 +67,5 @@ def file_command(path, family, size, mesh):
 
 
 if __name__ == "__main__":
-    raise SystemExit("refinement.families is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
-                     "the study.")
+    raise SystemExit("refinement.families is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

@@ -93,5 +93,5 @@ def distance_rows(folder, reference, window, trajectories=(), distances=(), poin
 
 
 if __name__ == "__main__":
-    raise SystemExit("refinement.refined is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
-                     "the study.")
+    raise SystemExit("refinement.refined is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

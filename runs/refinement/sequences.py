@@ -22,8 +22,8 @@ import re
 from dataclasses import dataclass, field
 
 OPTIONS = ("scene", "family", "variant", "size", "step")  # of a run
-ENTRIES = ("name", "scene", "family", "variants", "size", "step", "step_per_size", "reference", "window", "trajectories",
-           "distances", "averages", "known", "point", "parts", "portraits")
+ENTRIES = ("name", "scene", "family", "variants", "size", "step", "step_per_size", "reference", "window",
+           "trajectories", "distances", "averages", "known", "point", "parts", "portraits")
 SEVERAL = ("variants", "trajectories", "distances", "averages")
 NAME = re.compile(r"[\w.+-]+")  # of a file
 SAME = 1e-6  # relative: sizes and steps that are closer are equal
@@ -119,5 +119,5 @@ def reference_of(sequence, finest):
 
 
 if __name__ == "__main__":
-    raise SystemExit("refinement.sequences is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
-                     "the study.")
+    raise SystemExit("refinement.sequences is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

@@ -129,5 +129,5 @@ def compare_phases(relocalised, reference):
 
 
 if __name__ == "__main__":
-    raise SystemExit("relocalisation.comparison is a library, no command: snakemake --snakefile runs/relocalisation/Snakefile runs "
-                     "the study.")
+    raise SystemExit("relocalisation.comparison is a library, no command: snakemake --snakefile "
+                     "runs/relocalisation/Snakefile runs the study.")

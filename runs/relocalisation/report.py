@@ -173,7 +173,8 @@ def run_table(study):
 def report(rows):
     study = Study(rows)
     lines = [*time_lines(study), *choice_lines(study), *failures(study.failures, OPTIONS)]
-    return f"""Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous mesh:
+    return f"""Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous
+mesh:
 
 {case_table(study)}
 {bullets(lines)}

@@ -16,8 +16,8 @@ from slipscale.running.commands import settings, words
 from slipscale.running.table import named_runs, run_name
 
 try:
-    SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"), workflow.overwrite_configfiles,
-                                   workflow.overwrite_config, workflow.config_args)
+    SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"),
+                                   workflow.overwrite_configfiles, workflow.overwrite_config, workflow.config_args)
 except Mistake as mistake:
     sys.exit(f"{workflow.basedir}: {mistake}")
 config.clear()
@@ -52,7 +52,8 @@ def quoted(paths):
 
 
 def readme_of(folder):
-    """The README that is renewed, or None: that of a clone, and of what the study itself says, not of what is laid over."""
+    """The README that is renewed, or None: that of a clone, and of what the study itself says, not of what is laid
+    over."""
     return folder if config["readme"] and (TOP / "CMakeLists.txt").is_file() else None
 
 

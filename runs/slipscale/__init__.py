@@ -24,7 +24,8 @@ import sys
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # before h5py: a running job holds its files open
 
-STARTED = ("slipscale.__main__", "slipscale.running.attempt", "slipscale.running.ended")  # the command; what studies use
+# The command, and what studies use.
+STARTED = ("slipscale.__main__", "slipscale.running.attempt", "slipscale.running.ended")
 
 
 def _module_started():

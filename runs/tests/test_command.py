@@ -49,7 +49,8 @@ class Command(unittest.TestCase):
                                                                     "--windw is not an option; is --window meant?"),
                                 (("picture", "/nowhere", "b.png"), "There is no history.h5 in /nowhere"),
                                 (("compare", "/nowhere", "/nowhere"), "There is no history.h5"),
-                                (("table", "/nowhere"), "there is no /nowhere"), (("maps", "/nowhere", "a.png"), "/nowhere"),
+                                (("table", "/nowhere"), "there is no /nowhere"),
+                                (("maps", "/nowhere", "a.png"), "/nowhere"),
                                 (("scene", "/nowhere", "a.png"), "/nowhere cannot be read"),
                                 (("cell-picture", "/nowhere", "a.png"), "There is no localization.h5"),
                                 (("adapt", "/nowhere", "/nowhere", "--output", "o", "--program", "nothing"),
@@ -82,8 +83,9 @@ class Command(unittest.TestCase):
                 self.assertRegex(done.stderr, r"^[^\n]*no command: [^\n]*\n$", (file, way))
 
     def test_measuring_and_reading_draw_nothing(self):
-        listed = "import sys, slipscale.measuring.regime, slipscale.measuring.comparing, slipscale.measuring.surface_motion"
-        done = subprocess.run([sys.executable, "-c", f"{listed}; print([name for name in sys.modules if 'matplotlib' in name])"],
+        listed = ("import sys, slipscale.measuring.regime, slipscale.measuring.comparing, "
+                  "slipscale.measuring.surface_motion; print([name for name in sys.modules if 'matplotlib' in name])")
+        done = subprocess.run([sys.executable, "-c", listed],
                               cwd=RUNS, capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout.strip(), "[]")
 

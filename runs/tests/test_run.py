@@ -90,7 +90,8 @@ class Started(unittest.TestCase):
 
     def program(self, text):
         path = self.folder / "slide"
-        path.write_text(f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(Path(__file__).parents[1])!r})\n{text}")
+        path.write_text(f"#!{sys.executable}\nimport sys\n"
+                        f"sys.path.insert(0, {str(Path(__file__).parents[1])!r})\n{text}")
         path.chmod(0o755)
         return path
 

@@ -1,5 +1,5 @@
-"""The commands that READMEs show, and how each is tried: as it stands where that is cheap, as a plan where the program has
-one (snakemake -n, sweep --dry-run), else word by word: the program, its options and the files exist.
+"""The commands that READMEs show, and how each is tried: as it stands where that is cheap, as a plan where the program
+has one (snakemake -n, sweep --dry-run), else word by word: the program, its options and the files exist.
 
     Place(folder).attempt(line)    raises Fault, a sentence, for a command that would not run
 """
@@ -67,7 +67,8 @@ class Place:
         self.folder = Path(folder)
         (self.folder / "build").mkdir()
         (self.folder / "build" / "release").symlink_to(BUILD)
-        links_of(self.folder, "runs", "tests", "cmake", "src", "meshes", "include", "CMakeLists.txt", "CMakePresets.json")
+        links_of(self.folder, "runs", "tests", "cmake", "src", "meshes", "include", "CMakeLists.txt",
+                 "CMakePresets.json")
         self.manuals = {}
 
     def fill(self):
@@ -137,7 +138,8 @@ class Place:
     def check_options(words, manual, what):
         """Every option is a whole word of a text."""
         for word in words:
-            if re.match(r"--?[A-Za-z]", word) and not re.search(rf"(?<![\w-]){re.escape(word.split('=')[0])}(?![\w-])", manual):
+            known = rf"(?<![\w-]){re.escape(word.split('=')[0])}(?![\w-])"
+            if re.match(r"--?[A-Za-z]", word) and not re.search(known, manual):
                 raise Fault(f"{what} has no option {word}")
 
     # --- by program

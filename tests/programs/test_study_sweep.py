@@ -87,14 +87,14 @@ class Sweep(studies.StudyCase):
         self.assertIn("4 runs, 3 failed", (self.out / "report.md").read_text())
         self.assertGreater((self.out / "picture" / "picture.png").stat().st_size, 10000)
 
-        # A window without rows is a failure of its run as well, and one more value adds its runs only. Failures alone are
-        # no result, today and tomorrow: table and report are there, and the study fails with a sentence.
+        # A window without rows is a failure of its run as well, and one more value adds its runs only. Failures alone
+        # are no result, today and tomorrow: table and report are there, and the study fails with a sentence.
         before = self.written()
         sweep["friction_coefficient"] = [0.3, -0.5, 0.4]
         changes = {**TINY, "sweep": {**sweep, "size": 1e-3}, "window": [1.0, 2.0]}
         for _ in range(2):
-            self.assertIn("None of the 6 rows of out/sweep-reduced/table.csv is of a run that came to its end; the first: "
-                          "Only 0 rows", self.fails(**changes))
+            self.assertIn("None of the 6 rows of out/sweep-reduced/table.csv is of a run that came to its end; the "
+                          "first: Only 0 rows", self.fails(**changes))
         self.assertEqual(len([name for name in self.run_again(before) if name.startswith("run/")]), 2)
         self.assertEqual([row["status"] for row in self.table()], ["failed"] * 6)
         self.assertIn("choose another window", self.table()[0]["reason"])

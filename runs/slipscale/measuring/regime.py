@@ -24,8 +24,8 @@ MEASURES = {  # name: (unit, what it is)
     "friction_error": ("1", "standard error of friction, from blocks of the window"),
     "normal_force": ("N/m", "mean normal force there"),
     "normal_force_error": ("N/m", "its standard error"),
-    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant, or "
-                        "if what varies most is slower than the window can tell"),
+    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant, "
+                        "or if what varies most is slower than the window can tell"),
     "amplitude": ("1", "standard deviation of the tangential over the mean normal force"),
     "stick": ("1", "part of the contact's length, on average over time"),
     "stick_error": ("1", "its standard error"),

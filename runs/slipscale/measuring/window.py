@@ -28,8 +28,8 @@ def too_few(time, window, fewest=FEWEST_ROWS):
     """What is said of a window with fewer rows than that."""
     rows = rows_in(time, window)
     what = "a spectrum needs" if fewest >= FEWEST_ROWS else "means need"
-    return (f"Only {max(0, rows.stop - rows.start)} rows are recorded between {window[0]:g} and {window[1]:g} s (the run "
-            f"has reached {time[-1]:g} s) and {what} {fewest}: choose another window, let the run go on, or lower "
+    return (f"Only {max(0, rows.stop - rows.start)} rows are recorded between {window[0]:g} and {window[1]:g} s (the "
+            f"run has reached {time[-1]:g} s) and {what} {fewest}: choose another window, let the run go on, or lower "
             "history_every.")
 
 

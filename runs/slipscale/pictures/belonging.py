@@ -5,7 +5,8 @@ import numpy as np
 from slipscale.reading import Summary, UnreadableRun
 
 SAME_SIZE = 1e-6  # of the block's width: edges that lie as near are the same
-OF_A_SCENE = ("surface_", "friction_", "boundary_", "initial_", "body_", "damping_")  # options that make runs comparable
+# Options that make runs comparable.
+OF_A_SCENE = ("surface_", "friction_", "boundary_", "initial_", "body_", "damping_")
 
 
 def extent(file):
@@ -33,7 +34,8 @@ def same_morphology(relocalised, reference):
     if all(sums) and sums[0] == sums[1]:
         return True
     size = np.ptp(reference.coordinates, axis=0).max()
-    return (relocalised.region.shape == reference.region.shape and relocalised.triangles.shape == reference.triangles.shape
+    return (relocalised.region.shape == reference.region.shape
+            and relocalised.triangles.shape == reference.triangles.shape
             and relocalised.coordinates.shape == reference.coordinates.shape
             and bool(np.all(relocalised.triangles == reference.triangles))
             and np.abs(relocalised.coordinates - reference.coordinates).max() <= SAME_SIZE * size

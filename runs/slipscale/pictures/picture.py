@@ -61,7 +61,8 @@ def headline(folder, history, summary, boundary, window, dominant):
         state += f" of {planned * MICRO:.4g} µs: still running, or stopped early"
     normal, tangential = (history.boundary[boundary][f"{force}_force"][rows] for force in ("normal", "tangential"))
     numbers = [f"mean T / mean N = {with_error(*ratio_of_means(tangential, normal))}"
-               if np.mean(normal) > 0 else "no load", f"mean N = {with_error(*(part / 1e3 for part in mean_of(normal)))} kN/m",
+               if np.mean(normal) > 0 else "no load",
+               f"mean N = {with_error(*(part / 1e3 for part in mean_of(normal)))} kN/m",
                "settled" if settling(friction_signal(history, boundary, rows)).settled else "NOT SETTLED"]
     if dominant:
         numbers.append(f"dominant frequency {dominant / 1e3:.1f} kHz")

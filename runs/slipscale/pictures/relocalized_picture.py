@@ -143,8 +143,8 @@ def draw(reference, relocalised, homogeneous, component="yy", time=None, statist
                 say(panel, "Local stress over time", str(error))
         legend_below(figure, histories)
         before, after = compared.error["homogeneous"], compared.error["relocalised"]
-        figure.suptitle("\n".join([f"Local stress {name}, {compared.when}: heterogeneous, relocalised, homogeneous", *notes,
-                                   f"relative L2 {word}: homogeneous {in_digits(before)}   |   relocalised "
+        figure.suptitle("\n".join([f"Local stress {name}, {compared.when}: heterogeneous, relocalised, homogeneous",
+                                   *notes, f"relative L2 {word}: homogeneous {in_digits(before)}   |   relocalised "
                                    f"{in_digits(after)}"]), fontsize="large", fontweight="bold")
     return figure
 

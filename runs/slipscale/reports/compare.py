@@ -54,7 +54,8 @@ def apart(runs):
     found = [distances(run, first) for run in others]
     for name in ("spectrum", "portrait"):
         if known := [each[name] for each in found if name in each]:
-            rows.append([name, *(f"{each[name][0]:.3g}" if name in each else "-" for each in found), f"{known[0][1]:.3g}"])
+            rows.append([name, *(f"{each[name][0]:.3g}" if name in each else "-" for each in found),
+                         f"{known[0][1]:.3g}"])
     return rows
 
 
@@ -65,7 +66,8 @@ def text(runs):
              aligned(numbers(runs)), aligned(apart(runs))]
     if changes := changed_options(runs):
         rows = [["option", *(run.name for run in runs)],
-                *([name, *("-" if value is None else str(value) for value in values)] for name, values in changes.items())]
+                *([name, *("-" if value is None else str(value) for value in values)]
+                  for name, values in changes.items())]
         parts.append(aligned(rows))
     else:
         parts.append("no option differs in run.yaml")
@@ -74,7 +76,8 @@ def text(runs):
 
 def main(arguments=None):
     parser = Parser("compare", __doc__)
-    parser.add_argument("folders", nargs="+", metavar="folder", help="output folders of slide; the first is held against")
+    parser.add_argument("folders", nargs="+", metavar="folder",
+                        help="output folders of slide; the first is held against")
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of means and spectra, s")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portraits (default 0)")
     parser.add_argument("--picture", help="image to write; the ending chooses the format")

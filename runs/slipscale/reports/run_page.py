@@ -64,8 +64,8 @@ def headline(run):
 
     frequency = {None: "not known", 0.0: "none"}.get(found["frequency"]) or f"{found['frequency'] / 1e3:.4g} kHz"
     return [(mean("friction"), "mean tangential over mean normal force"),
-            ("yes" if found["settled"] else "NO", f"settled; amplitude ratio {found['amplitude_ratio']:.3g}, second half of "
-                                                  "the window over first"),
+            ("yes" if found["settled"] else "NO", f"settled; amplitude ratio {found['amplitude_ratio']:.3g}, second "
+                                                  "half of the window over first"),
             (found["regime"], "regime"), (frequency, "strongest frequency of friction"),
             *((f"{mean(state, 100)} %", f"of the contact {says}")
               for state, says in (("stick", "sticks"), ("slip", "slips"), ("open", "is open"))),
@@ -81,9 +81,10 @@ def warnings(run):
     try:
         found = run.settling()
         if not found.settled:
-            said.append(f"The run had not settled: from the first half of the window to the second the amplitude of friction "
-                        f"changes by the factor {found.amplitude_ratio:.3g} and its mean by {100 * found.drift:+.2g} %, so "
-                        "its averages belong to this window only.")
+            said.append("The run had not settled: from the first half of the window to the second the amplitude of "
+                        "friction "
+                        f"changes by the factor {found.amplitude_ratio:.3g} and its mean by {100 * found.drift:+.2g} "
+                        "%, so its averages belong to this window only.")
     except Mistake as few:
         said.append(str(few))
     return said

@@ -33,9 +33,10 @@ def unsettled(rows):
     """What is no average of a limit cycle yet."""
     ok = [row for row in rows if row["status"] == "ok"]
     loud = [row for row in ok if row["amplitude"] > VIBRATES]
-    count, quiet = (sum(not is_true(row["settled"]) for row in some) for some in (loud, [row for row in ok if row not in loud]))
-    return (f"{len(loud)} runs vibrate (amplitude above {VIBRATES:g}); {count} of these, and {quiet} of the others, had not "
-            "settled (`settled`, the rule of summary.yaml): their averages belong to this window only.")
+    count, quiet = (sum(not is_true(row["settled"]) for row in some)
+                    for some in (loud, [row for row in ok if row not in loud]))
+    return (f"{len(loud)} runs vibrate (amplitude above {VIBRATES:g}); {count} of these, and {quiet} of the others, "
+            "had not settled (`settled`, the rule of summary.yaml): their averages belong to this window only.")
 
 
 def in_part(rows, options):

@@ -17,7 +17,8 @@ def said(rows, table):
     """A sentence about the rows of the file `table`, and whether any is ok, or there is none at all."""
     ok = sum(row["status"] == "ok" for row in rows)
     if rows and not ok:
-        return f"None of the {len(rows)} rows of {table} is of a run that came to its end; the first: {rows[0]['reason']}", False
+        return (f"None of the {len(rows)} rows of {table} is of a run that came to its end; the first: "
+                f"{rows[0]['reason']}"), False
     return f"{ok} of the {len(rows)} rows of {table} are of runs that came to their end.", True
 
 

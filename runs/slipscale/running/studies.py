@@ -64,10 +64,11 @@ def what_is_run(config, runs):
     groups = config.get("runs")
     groups = {name: len(grid(values)) for name, values in groups.items()} if isinstance(groups, dict) else {}
     said = ", ".join(f"{name} {count}" for name, count in groups.items() if count)
-    lines = [f"{len(runs)} runs" + (f": {said}" if said else "") + f"; they and the table are written to {config['output']}"]
+    groups_said = f": {said}" if said else ""
+    lines = [f"{len(runs)} runs{groups_said}; they and the table are written to {config['output']}"]
     if kept := [name for name in config.get("kept_groups", []) if groups.get(name)]:
-        lines.append(f"of study.yaml and not of what is laid over it: {', '.join(kept)}; `replace: [runs]` there leaves "
-                     "them out")
+        lines.append(f"of study.yaml and not of what is laid over it: {', '.join(kept)}; `replace: [runs]` there "
+                     "leaves them out")
     return "\n".join(lines)
 
 

@@ -26,7 +26,8 @@ def spectrum(*lines):
 def run(*lines, amplitude=0.4, shift=0.0, **values):
     angle = np.linspace(0, 40 * np.pi, 4000)
     return Run(spectrum(*lines), np.array([np.cos(angle) + shift, np.sin(angle)]),
-               {**dict.fromkeys(SCALARS, 0.0), "settled": True, "amplitude_ratio": 1.0, "amplitude": amplitude, **values})
+               {**dict.fromkeys(SCALARS, 0.0), "settled": True, "amplitude_ratio": 1.0, "amplitude": amplitude,
+                **values})
 
 
 class Criterion(unittest.TestCase):
@@ -97,7 +98,8 @@ class Verdict(unittest.TestCase):
             self.assertEqual(verdict(composites, homogenised), wanted)
 
     def test_columns(self):
-        row = compared(self.composites, [run((3.5e5, 2.0), amplitude_ratio=1 / 1.2), run((3.5e5, 2.0), amplitude_ratio=1.1)])
+        row = compared(self.composites, [run((3.5e5, 2.0), amplitude_ratio=1 / 1.2),
+                                         run((3.5e5, 2.0), amplitude_ratio=1.1)])
         self.assertEqual((row["verdict"], row["composites"], row["homogenised"]), (AMPLITUDE, 3, 2))
         self.assertEqual(row["homogenised_modes"], "350000; 350000")
         self.assertIs(row["settled"], True)

@@ -24,7 +24,7 @@ class Compared(unittest.TestCase):
         with h5py.File(self.folders[2] / "history.h5", "r+") as file:
             file["boundary/top/tangential_force"][:] *= 1.1
         text = (self.folders[2] / "run.yaml").read_text()
-        (self.folders[2] / "run.yaml").write_text(text.replace("friction_coefficient: 0.5", "friction_coefficient: 0.55"))
+        (self.folders[2] / "run.yaml").write_text(text.replace("coefficient: 0.5", "coefficient: 0.55"))
 
     def test_differences_against_scatter(self):
         one, two, rougher = read_all(self.folders)

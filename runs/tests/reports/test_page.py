@@ -73,10 +73,12 @@ class OfARun(unittest.TestCase):
 
     def test_warns(self):
         (self.folder / "summary.yaml").write_text(
-            "notes:\n  note_1: the body never touches the surface\naliases: 1 MHz may be an alias\nenergy:\n  largest_relative_residual: 1e-3\n")
+            "notes:\n  note_1: the body never touches the surface\naliases: 1 MHz may be an alias\n"
+            "energy:\n  largest_relative_residual: 1e-3\n")
         text = self.text()
         self.assertFalse("note_1&#x27;" in text)
-        for said in ("the body never touches the surface", "1 MHz may be an alias", "The energy balance misses 1.0e-03 of what flowed"):
+        for said in ("the body never touches the surface", "1 MHz may be an alias",
+                     "The energy balance misses 1.0e-03 of what flowed"):
             self.assertTrue(said in text, said)
 
     def test_written_where_asked(self):
