@@ -11,9 +11,9 @@ from pathlib import Path
 TOP = Path(workflow.basedir).parents[1]
 sys.path.insert(0, str(TOP / "runs"))
 from slipscale.mistakes import Mistake
-from slipscale.running import programs, studies
+from slipscale.running import ended, programs, studies
 from slipscale.running.commands import settings, words
-from slipscale.running.table import named_runs, run_name
+from slipscale.running.table import named_runs, read_csv, run_name
 
 try:
     SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"),
@@ -81,6 +81,15 @@ def say_what_is_run():
 # each of which makes one.
 rule part:
     input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config.get("part", JOB))]
+
+
+# After all that the engine says.
+onerror:
+    table = Path(f"{OUT}/table.csv")
+    if table.is_file() and not Path(f"{OUT}/ended.txt").exists():
+        sentence, good = ended.said(read_csv(table), table)
+        if not good:
+            print(sentence, file=sys.stderr)
 
 
 # The study fails if not one of its runs came to its end, after its table and its report are there.

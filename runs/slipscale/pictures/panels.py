@@ -191,11 +191,12 @@ def energy_ledger(axes, history):
 
 
 def relative_residual(history):
-    """Largest residual of the energy balance over the energy that flowed by the end; None when not recorded."""
+    """Largest residual of the energy balance over what had flowed by then, of all rows, as summary.yaml has it; None when
+    not recorded."""
     residual, flowed = history.energy.get("residual"), history.energy.get("flowed")
     if residual is None or flowed is None or not flowed[-1] > 0:
         return None
-    return np.max(np.abs(residual)) / flowed[-1]
+    return np.max(np.abs(residual[flowed > 0]) / flowed[flowed > 0])
 
 
 def say(axes, title, sentence):
