@@ -90,19 +90,23 @@ def read_compared(folder, window, point=0, name=None):
 @dataclass
 class Difference:
     """Of a mean of a run from that of the first: `value`, its standard error `error`, no less than rounding makes it,
-    and whether it is beyond DOUBT of them; None where there is no error to hold it against."""
+    whether it is beyond DOUBT of them; None where there is no error to hold it against. `scatters`: whether the
+    error is more than rounding."""
 
     value: float
     error: float
     differs: bool
+    scatters: bool = True
 
 
 def difference(own, first, size=0.0):
     """Of two pairs of value and standard error; `size` is that of what both are sums or parts of, if it is larger than
     they are: to its rounding they are known."""
     value, error = own[0] - first[0], float(np.hypot(own[1], first[1]))
-    error = error if not np.isfinite(error) else max(error, ROUNDING_OF_SUMS * max(abs(own[0]), abs(first[0]), size))
-    return Difference(value, error, None if not np.isfinite(error) else bool(abs(value) > DOUBT * error))
+    if not np.isfinite(error):
+        return Difference(value, error, None)
+    rounding = ROUNDING_OF_SUMS * max(abs(own[0]), abs(first[0]), size)
+    return Difference(value, max(error, rounding), bool(abs(value) > DOUBT * max(error, rounding)), error > rounding)
 
 
 def differences(run, first):

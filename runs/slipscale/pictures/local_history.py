@@ -80,5 +80,5 @@ def legend_below(figure, axes):
     """One legend for all of the panels that `history_panel` drew, below them."""
     handles, labels = next((panel.get_legend_handles_labels() for panel in axes if panel.lines), ([], []))
     if handles:
-        figure.supxlabel(" ")  # room for it
+        figure.supxlabel(" \n ", fontsize="medium")  # room for it
         figure.legend(handles, labels, loc="lower center", ncol=len(labels), frameon=False)

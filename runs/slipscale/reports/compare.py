@@ -24,8 +24,10 @@ def judged(found):
     """A Difference as text."""
     if found.differs is None:
         return f"{found.value:+.3g}"
-    times = f"{abs(found.value) / found.error:.2g}" if found.error > 0 else "0"
-    return f"{found.value:+.3g}, {times} errors: {'differs' if found.differs else 'the same'}"
+    verdict = "differs" if found.differs else "the same"
+    if not found.scatters:
+        return f"{found.value:+.3g}, neither scatters: {verdict}{'' if found.differs else ' to rounding'}"
+    return f"{found.value:+.3g}, {abs(found.value) / found.error:.2g} errors: {verdict}"
 
 
 def numbers(runs):
@@ -39,8 +41,9 @@ def numbers(runs):
                          *(with_error(*run.means[name]) if name in run.means else "-" for run in runs),
                          *(judged(each[name]) if name in each else "-" for each in found)])
     rows.append(["amplitude [1]", *(f"{run.amplitude:.3g}" for run in runs), *("" for _ in others)])
-    rows.append(["frequency [kHz]", *(f"{run.frequency * 1e-3:.4g}" for run in runs),
-                 *(f"{(run.frequency - first.frequency) * 1e-3:+.3g}" for run in others)])
+    rows.append(["frequency [kHz]", *(f"{run.frequency * 1e-3:.4g}" if run.frequency else "none" for run in runs),
+                 *(f"{(run.frequency - first.frequency) * 1e-3:+.3g}" if run.frequency and first.frequency else ""
+                   for run in others)])
     rows.append(["regime", *(run.regime for run in runs), *("" for _ in others)])
     rows.append(["settled", *(f"{'yes' if run.settling.settled else 'NO'}, amplitude ratio "
                               f"{run.settling.amplitude_ratio:.3g}" for run in runs), *("" for _ in others)])

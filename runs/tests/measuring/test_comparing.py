@@ -11,6 +11,7 @@ import h5py
 from slipscale import command
 from slipscale.measuring.comparing import changed_options, difference, differences, distances, read_all
 from slipscale.reading import UnreadableRun
+from slipscale.reports import compare
 from tests import fake_run
 
 
@@ -49,6 +50,9 @@ class Compared(unittest.TestCase):
         for run, force in ((one, 1e-9), (two, -3e-9)):  # of a normal force of 7.5e4 N/m: no friction at all
             run.means["tangential_force"] = force, 1e-20
         self.assertFalse(differences(two, one)["tangential_force"].differs)
+        two.means["slip"], one.means["slip"] = (0.9, 0.0), (1.0, 0.0)
+        self.assertEqual([compare.judged(differences(two, one)[name]) for name in ("tangential_force", "slip")],
+                         ["-4e-09, neither scatters: the same to rounding", "-0.1, neither scatters: differs"])
 
     def test_the_command(self):
         said, picture = io.StringIO(), self.folders[0].parent / "a b.png"
