@@ -93,6 +93,9 @@ onerror:
 
 
 # The study fails if not one of its runs came to its end, after its table and its report are there.
+localrules: ended
+
+
 rule ended:
     input:
         table=f"{OUT}/table.csv",
