@@ -90,8 +90,9 @@ bool records_force(const RunPosition& before, long history_every) {
 }
 
 std::vector<std::string> files_of_a_run() {
-  return {"run.yaml",    "summary.yaml",  "history.h5",      "contact.h5",        "fields.h5",
-          "fields.xdmf", "statistics.h5", "statistics.xdmf", checkpoint_names[0], checkpoint_names[1]};
+  return {"run.yaml",  "summary.yaml", "history.h5",        "contact.h5",
+          "fields.h5", "fields.xdmf",  "statistics.h5",     "statistics.xdmf",
+          "fault.h5",  "fault.xdmf",   checkpoint_names[0], checkpoint_names[1]};
 }
 
 /// Of each region, 1/Pa.
@@ -299,6 +300,15 @@ void Recorder::stop(const std::string& fault, const std::string& cure) const {
     } catch (const RunError& error) {
       kept = error.what();
     }
+  }
+  try {
+    const MPI_Comm comm = body_.comm();
+    FieldsFile state(comm, MeshImage(comm, body_.model().mesh), folder_.path(), {true, true, false}, "fault");
+    state.write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), nullptr);
+    state.close();
+    kept += ", and the state of this step is in '" + folder_.path("fault.xdmf") + "'";
+  } catch (const RunError& error) {
+    kept = error.what();
   }
   throw RunError(fault + "; " + kept + ". " + cure);
 }
