@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "astray.hpp"
+#include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/disk_space.hpp"
@@ -192,9 +193,12 @@ void Recorder::after_step(long n) {
 }
 
 void Recorder::observe(long n) {
+  static const LogEvent observation("Observation"), writing("Writing");
+  std::optional<LogEvent::Scope> scope(observation);
   Observation seen = observer_.observe();
   check(seen);
   const auto readings = probes_.read(body_);
+  scope.emplace(writing);
   if (contact_ && contact_due(n)) contact_->write(seen, body_.surface_velocity());
   if (history_ && (n % history_every_ == 0 || n == last_)) {
     history_->write(seen, readings);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assembled_pairs.hpp"
+#include "quartets.hpp"
 #include "row_terms.hpp"
 
 namespace slipscale {
@@ -14,7 +15,7 @@ constexpr int rows_of_a_chunk = 256;
 constexpr int long_run = 4;
 
 /// What it costs to gather a run, in units of a node whose pairs are visited; measured.
-double cost_of(int nodes) { return nodes < long_run ? 1.6 * nodes : 0.6 + 0.3 * nodes; }
+double cost_of(int nodes) { return nodes < long_run ? 1.2 * nodes : 0.6 + 0.3 * nodes; }
 
 /// 1 for each owned node whose force is gathered: those of the chunks where this costs less.
 template <class Scalar>
@@ -53,7 +54,10 @@ std::vector<char> choose_gathered(const AssembledPairs<Scalar>& pairs, const Row
 template <class Scalar>
 PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Material>& materials,
                                      const StiffnessKernel& kernel)
-    : owned_(mesh.nodes.owned), count_(mesh.nodes.size()), gather_(gather_runs_with(kernel.instructions)) {
+    : owned_(mesh.nodes.owned),
+      count_(mesh.nodes.size()),
+      gather_runs_(gather_runs_with(kernel.instructions)),
+      gather_quartets_(gather_quartets_with(kernel.instructions)) {
   const auto pairs = assemble_pairs<Scalar>(mesh, materials);
   const RowTerms<Scalar> rows(pairs);
   lay_out(pairs, rows,
@@ -65,7 +69,7 @@ template <class Scalar>
 void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
                                     const std::vector<char>& gathered) {
   TermLists lists;
-  std::vector<Term> terms;
+  Quartets quartets(count_);
   int touched = 0, seen = 0;
   for (int begin = 0; begin < pairs.rows(); begin += rows_of_a_chunk) {
     const int end = std::min(begin + rows_of_a_chunk, pairs.rows());
@@ -73,24 +77,17 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
     chunk.rows_begin = static_cast<int>(rows_.size());
     chunk.skews_begin = static_cast<int>(skews_.size());
     chunk.runs_begin = static_cast<int>(runs_.size());
+    chunk.quartets_begin = static_cast<int>(quartets_.size());
     chunk.zero_begin = std::max(touched, seen);
+    const int first = seen;
     for (int row = begin; row < end; ++row) {
       add_row(pairs, row, gathered);
-      const int node = pairs.node[row];
-      if (node >= owned_) continue;
-      seen = node + 1;
-      if (!gathered[node]) continue;
-      rows.of(node, terms);
-      const auto [first, last] = lists.place(terms);
-      const bool goes_on = static_cast<int>(runs_.size()) > chunk.runs_begin && runs_.back().end == node &&
-                           runs_.back().first == first;
-      if (goes_on)
-        ++runs_.back().end;
-      else
-        runs_.push_back({node, node + 1, first, last});
+      if (pairs.node[row] < owned_) seen = pairs.node[row] + 1;
     }
+    if (first < seen && gathered[first]) add_gathered(rows, first, seen, lists, quartets);
     chunk.rows_end = static_cast<int>(rows_.size());
     chunk.runs_end = static_cast<int>(runs_.size());
+    chunk.quartets_end = static_cast<int>(quartets_.size());
     for (int row = chunk.rows_begin; row < chunk.rows_end; ++row)
       if (rows_[row].node < owned_) touched = std::max(touched, rows_[row].node + 1);
     if (chunk.rows_begin < chunk.rows_end)
@@ -102,8 +99,61 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
   rows_.push_back({-1, static_cast<int>(high_.size())});
   skews_.push_back({-1, -1, 0});
   terms_ = lists.take();
+  links_ = std::move(quartets.links);
+  values_ = std::move(quartets.values);
   complete_in_order(pairs, gathered);
   rows_.shrink_to_fit(), high_.shrink_to_fit(), blocks_.shrink_to_fit(), runs_.shrink_to_fit();
+  values_.shrink_to_fit();
+}
+
+/// The owned nodes of a chunk: in runs where these are long, else in quartets.
+template <class Scalar>
+void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists,
+                                         Quartets& quartets) {
+  gathered_ += end - begin;
+  std::vector<Term> terms, next;
+  int between = begin;  // where the nodes start that are in no run
+  rows.of(begin, terms);
+  for (int node = begin; node < end;) {
+    int stop = node + 1;
+    for (; stop < end; ++stop) {
+      rows.of(stop, next);
+      if (next != terms) break;
+    }
+    if (stop - node >= long_run) {
+      if (between < node) add_quartets(rows, {between, node, 0, 0}, begin, end, lists, quartets);
+      const auto [first, last] = lists.place(terms);
+      runs_.push_back({node, stop, first, last});
+      repeating_ += stop - node;
+      between = stop;
+    }
+    std::swap(terms, next);
+    node = stop;
+  }
+  if (between < end) add_quartets(rows, {between, end, 0, 0}, begin, end, lists, quartets);
+}
+
+/// The nodes of a stretch; where they are no multiple of four, with nodes beside it, whose forces are
+/// gathered a second time, to the same bits. `begin` and `end` are those of the chunk.
+template <class Scalar>
+void PairStiffness<Scalar>::add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end,
+                                         TermLists& lists, Quartets& quartets) {
+  std::array<std::vector<Term>, 4> terms;
+  for (int node = stretch.begin; node < stretch.end; node += 4) {
+    const int first = std::max(begin, std::min(node, end - 4));
+    if (first + 4 <= end) {
+      for (int k = 0; k < 4; ++k) rows.of(first + k, terms[k]);
+      if (const auto quartet = quartets.make(first, terms)) {
+        quartets_.push_back(*quartet);
+        continue;
+      }
+    }
+    for (int single = node; single < std::min(node + 4, stretch.end); ++single) {
+      rows.of(single, terms[0]);
+      const auto [of_first, of_last] = lists.place(terms[0]);
+      runs_.push_back({single, single + 1, of_first, of_last});
+    }
+  }
 }
 
 /// Keeps the pairs of which an end is visited. A row without pairs is kept where its node is visited: its
@@ -146,21 +196,6 @@ void PairStiffness<Scalar>::complete_in_order(const AssembledPairs<Scalar>& pair
     while (complete < owned_ && last_reader[complete] <= k) ++complete;
     chunks_[k].complete_end = complete;
   }
-}
-
-template <class Scalar>
-int PairStiffness<Scalar>::gathered() const {
-  int nodes = 0;
-  for (const Run& run : runs_) nodes += run.end - run.begin;
-  return nodes;
-}
-
-template <class Scalar>
-int PairStiffness<Scalar>::repeating() const {
-  int nodes = 0;
-  for (const Run& run : runs_)
-    if (run.end - run.begin >= long_run) nodes += run.end - run.begin;
-  return nodes;
 }
 
 template class PairStiffness<double>;

@@ -30,4 +30,15 @@ GatherRuns gather_runs_with(Instructions instructions) {
   }
 }
 
+GatherQuartets gather_quartets_with(Instructions instructions) {
+  switch (instructions) {
+    case Instructions::avx512:
+      return avx512::gather_quartets;
+    case Instructions::avx2:
+      return avx2::gather_quartets;
+    default:
+      return base::gather_quartets;
+  }
+}
+
 }  // namespace slipscale

@@ -19,6 +19,8 @@ template <class Scalar>
 struct AssembledPairs;
 template <class Scalar>
 class RowTerms;
+class TermLists;
+class Quartets;
 
 /// The stiffness of a body as a graph of node pairs.
 ///
@@ -52,12 +54,13 @@ class PairStiffness {
     multiply(displacement, force, [](int, int) {});
   }
 
-  int gathered() const;   ///< owned nodes whose force is gathered
-  int repeating() const;  ///< of these, the ones in runs long enough for vector instructions
+  int gathered() const { return gathered_; }    ///< owned nodes whose force is gathered
+  int repeating() const { return repeating_; }  ///< of these, the ones in runs
   std::size_t bytes() const {
     return high_.size() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) +
            skews_.size() * sizeof(Skew) + chunks_.size() * sizeof(Chunk) + runs_.size() * sizeof(Run) +
-           terms_.size() * sizeof(Term);
+           terms_.size() * sizeof(Term) + quartets_.size() * sizeof(Quartet) + links_.size() * sizeof(Link) +
+           values_.size() * sizeof(double);
   }
 
  private:
@@ -78,24 +81,33 @@ class PairStiffness {
   /// are gathered; what a visit adds to the force on a gathered node is lost.
   struct Chunk {
     int rows_begin = 0, rows_end = 0, skews_begin = 0, runs_begin = 0, runs_end = 0;
+    int quartets_begin = 0, quartets_end = 0;
     int zero_begin = 0, zero_end = 0;          ///< owned nodes that its visits are the first to add to
     int complete_begin = 0, complete_end = 0;  ///< owned nodes whose force is complete after it
   };
 
   void lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
                const std::vector<char>& gathered);
+  void add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists, Quartets& quartets);
+  void add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end, TermLists& lists,
+                    Quartets& quartets);
   void add_row(const AssembledPairs<Scalar>& pairs, int row, const std::vector<char>& gathered);
   void complete_in_order(const AssembledPairs<Scalar>& pairs, const std::vector<char>& gathered);
   void visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
 
   int owned_ = 0, count_ = 0;
-  GatherRuns gather_;
+  int repeating_ = 0, gathered_ = 0;
+  GatherRuns gather_runs_;
+  GatherQuartets gather_quartets_;
   std::vector<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
   std::vector<int> high_;
   std::vector<Block> blocks_;
   std::vector<Skew> skews_;  ///< in the order of the pairs; a last one of no row closes the list
   std::vector<Run> runs_;    ///< ascending, none across two chunks
   std::vector<Term> terms_;
+  std::vector<Quartet> quartets_;  ///< likewise
+  std::vector<Link> links_;
+  std::vector<double> values_;
   std::vector<Chunk> chunks_;
 };
 
@@ -105,8 +117,10 @@ void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Comp
   for (int ghost = owned_; ghost < count_; ++ghost) force[ghost] = {0, 0};
   for (const Chunk& chunk : chunks_) {
     if (chunk.rows_begin < chunk.rows_end) visit(chunk, displacement, force);
-    gather_(runs_.data() + chunk.runs_begin, runs_.data() + chunk.runs_end, terms_.data(), displacement,
-            force);
+    gather_runs_(runs_.data() + chunk.runs_begin, runs_.data() + chunk.runs_end, terms_.data(), displacement,
+                 force);
+    gather_quartets_(quartets_.data() + chunk.quartets_begin, quartets_.data() + chunk.quartets_end,
+                     links_.data(), values_.data(), displacement, force);
     if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end);
   }
 }
