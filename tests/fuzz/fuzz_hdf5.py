@@ -12,11 +12,9 @@ The environment says where the programs are, as for tests/programs: SLIPSCALE_SL
 """
 
 import argparse
-import os
 import random
 import re
 import shutil
-import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
@@ -25,6 +23,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "programs"))
 
 import numpy as np  # noqa: E402
+from damage import watched  # noqa: E402
 from relocalizing import HETEROGENEOUS, HOMOGENEOUS, RELOCALIZE, Relocalising  # noqa: E402
 from running import SLIDE, arguments_of, h5py  # noqa: E402
 from scenes import block  # noqa: E402
@@ -307,23 +306,8 @@ def not_finite(path):
 
 def run(reader, folder, limits):
     """Exit code, stderr, seconds and MB of the largest process."""
-    start = time.monotonic()
-    with open(folder / "err", "wb") as err:
-        child = subprocess.Popen([reader.program, *arguments_of(reader.options)], cwd=folder, stdin=subprocess.DEVNULL,
-                                 stdout=subprocess.DEVNULL, stderr=err)
-        while True:
-            pid, status, usage = os.wait4(child.pid, os.WNOHANG)
-            seconds = time.monotonic() - start
-            if pid:
-                break
-            if seconds > limits.hang:
-                child.kill()
-                _, status, usage = os.wait4(child.pid, 0)
-                break
-            time.sleep(0.01)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    text = (folder / "err").read_text(errors="replace")
-    return child.returncode, text, seconds, usage.ru_maxrss / 1024
+    code, _, err, seconds, memory = watched([reader.program, *arguments_of(reader.options)], folder, limits.hang)
+    return code, err, seconds, memory
 
 
 def main():
