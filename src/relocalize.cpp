@@ -37,12 +37,13 @@ void relocalize(Options& options) {
     comparison.emplace(comm, *sources.reference, targets, mine, run.times(), *choice.reference);
   options.refuse_unknown();
   print(describe(run, sources.tensors, targets, local));
-  print_notes(misfits(comm, sources));
+  const std::vector<std::string> notes = misfits(comm, sources);
+  print_notes(notes);
 
   const OutputFolder folder(comm, choice.folder,
                             {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",
                              "relocalized_statistics.xdmf", "comparison.yaml"});
-  RelocalisedFile file(comm, targets.grid, mine, folder.path());
+  RelocalisedFile file(comm, targets.grid, mine, folder.path(), notes);
   std::vector<PlaneTensor> macro_strain(static_cast<std::size_t>(run.grid().cells()));
   Progress progress(choice.progress, 0, static_cast<double>(run.times().size()));
   for (std::size_t frame = 0; frame < run.times().size(); ++frame) {
@@ -65,6 +66,7 @@ void relocalize(Options& options) {
     comparison->add_statistics(*sources.reference_statistics, *sources.mean_strain, local);
   if (comparison) {
     Comparison found = comparison->finish();
+    found.notes = notes;
     found.probes = histories.agreements(targets.grid.regions);
     folder.write_text("comparison.yaml", comparison_yaml(found));
     print("\n" + describe(found));

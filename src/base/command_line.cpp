@@ -1,5 +1,9 @@
 #include "command_line.hpp"
 
+#include <unistd.h>
+
+#include <filesystem>
+
 #include "names.hpp"
 #include "slipscale/base/error.hpp"
 #include "spelling.hpp"
@@ -24,6 +28,15 @@ void refuse_spelling(const std::string& argument) {
   }
   if (argument.starts_with("--"))
     throw UserError(argument + " is not understood; write -" + bare + ", with one dash");
+}
+
+/// By the rank that would write, so that all see the same. Collective where there is a file.
+bool cannot_be_written(const std::string& file) {
+  if (file.empty()) return false;
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  int fault = access(folder.empty() ? "." : folder.c_str(), W_OK) != 0;
+  MPI_Bcast(&fault, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return fault != 0;
 }
 
 }  // namespace
@@ -65,12 +78,15 @@ CommandLine read_command_line(int argc, char** argv) {
   return line;
 }
 
-void check_petsc_values(const CommandLine& line) {
-  for (const Written& option : line.options) {
-    const std::string wanted = names::petsc_wants(option.name, option.value);
+void check_petsc_values(const std::vector<Written>& options) {
+  for (const Written& option : options) {
+    std::string wanted = names::petsc_wants(option.name, option.value);
+    if (wanted.empty() && cannot_be_written(names::petsc_file(option.name, option.value)))
+      wanted = "a file in a folder that can be written to";
     if (!wanted.empty())
-      throw UserError("-" + option.name + " is '" + *option.value + "', but it must be " + wanted +
-                      " (an option of PETSc)");
+      throw UserError("-" + option.name + " is '" + option.value.value_or("") + "', but it must be " +
+                      wanted + " (an option of PETSc" +
+                      (option.origin.place.empty() ? "" : ", in " + option.origin.place) + ")");
   }
 }
 

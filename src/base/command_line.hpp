@@ -22,6 +22,6 @@ CommandLine read_command_line(int argc, char** argv);
 
 /// Refuses a value that PETSc could not read of an option that it reads when it starts or ends, where it
 /// would stop with a dump. Throws `UserError`.
-void check_petsc_values(const CommandLine& line);
+void check_petsc_values(const std::vector<Written>& options);
 
 }  // namespace slipscale

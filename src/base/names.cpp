@@ -144,6 +144,14 @@ std::string petsc_wants(const std::string& name, const std::optional<std::string
   return "";
 }
 
+std::string petsc_file(const std::string& name, const std::optional<std::string>& value) {
+  const std::string folded = spelling::fold(name), text = value.value_or("");
+  if (folded == "citations") return text;
+  const std::size_t first = text.find(':');
+  if (!any_of(system_viewers, folded) || first == std::string::npos) return "";
+  return text.substr(first + 1, text.find(':', first + 1) - first - 1);
+}
+
 Guess meant(const std::string& name, const Schema& schema, const Known& known) {
   Nearest guess;
   std::size_t open = static_cast<std::size_t>(-1);  // how near a name may be that is not known yet

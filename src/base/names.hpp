@@ -28,6 +28,9 @@ bool ignored(const Pattern& pattern);
 /// count as unknown until PETSc has read them.
 bool petsc_object(const std::string& name, const std::vector<std::string>& solvers);
 
+/// The file that such an option of PETSc would write when the program ends; empty where there is none.
+std::string petsc_file(const std::string& name, const std::optional<std::string>& value);
+
 /// PETSc's own options that it reads when it starts or ends (`log_view`), by full name.
 bool petsc_system(const std::string& name);
 

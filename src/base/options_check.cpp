@@ -88,17 +88,32 @@ Options::Options(std::string program, Schema schema, const std::vector<Written>&
                  std::vector<std::string> solvers)
     : program_(std::move(program)), schema_(std::move(schema)), solvers_(std::move(solvers)) {
   for (const Option& option : schema_) check_fallback(option);
-  const std::vector<Written> before = unread();
-  const PlacesOfPetsc places(before.empty());
-  for (Written entry : before) {
+  const PlacesOfPetsc places;
+  for (Written entry : unread()) {
     entry.origin.place = places.of(entry.name);
     take(entry);
   }
   for (const Written& entry : written) take(entry);
+  tell_of(places.all(), written);
   for (const std::string& name : typed_) {
     refuse_if_unknown(name, false);
     const Match found = match(name);
-    if (found.option && !names::ignored(names::pattern(found.option->name))) check(given_.at(name));
+    // With a placeholder, a name that does not exist is to be named before its value.
+    if (found.option && names::pattern(found.option->name).placeholder.empty()) check(given_.at(name));
+  }
+}
+
+/// What PETSc collects by itself is not in sight of the user: it is named, and so is what overrules it.
+void Options::tell_of(const std::vector<Written>& collected, const std::vector<Written>& written) {
+  for (const Written& entry : collected) {
+    const auto later = std::find_if(written.rbegin(), written.rend(), [&](const Written& other) {
+      return spelling::fold(other.name) == spelling::fold(entry.name);
+    });
+    notes_.push_back("-" + entry.name + (entry.value ? " " + *entry.value : "") + " stands in " +
+                     entry.origin.place +
+                     (later == written.rend()       ? ""
+                      : later->origin.place.empty() ? " and gives way to what is written elsewhere"
+                                                    : " and gives way to that of " + later->origin.place));
   }
 }
 
@@ -183,6 +198,12 @@ void Options::know_names(const std::string& placeholder, const std::vector<std::
   }
   names_[placeholder] = names;
   for (const std::string& name : typed_) refuse_if_unknown(name, false);
+  for (const std::string& name : typed_) {
+    const Match found = match(name);
+    if (found.option && names::pattern(found.option->name).placeholder == placeholder &&
+        known_as(names_, placeholder, found.filled))
+      check(given_.at(name));
+  }
 }
 
 void Options::refuse_unknown() const {
@@ -191,7 +212,7 @@ void Options::refuse_unknown() const {
     refuse_if_unknown(entry.name, true);
     if (match(entry.name).option || names::petsc_system(entry.name)) continue;
     const std::string near = names::meant(entry.name, schema_, names_).name;
-    const std::string place = PlacesOfPetsc(false).of(entry.name);
+    const std::string place = PlacesOfPetsc().of(entry.name);
     throw UserError("-" + entry.name + " was given" + (place.empty() ? "" : " in " + place) +
                     " but neither " + program_ + " nor PETSc has read it" +
                     (near.empty() ? "; remove it, or correct its name" : "; did you mean " + near + "?"));

@@ -106,4 +106,13 @@ std::string engineering(double value, const std::string& unit) {
          prefixes[static_cast<std::size_t>(step + 8)] + unit;
 }
 
+std::string apart_from(double limit, double value, int digits) {
+  std::string text = format("{:.{}g}", value, digits);
+  constexpr int all = 17;
+  for (int more = digits + 1; value != limit && more <= all && text == format("{:.{}g}", limit, more - 1);
+       ++more)
+    text = format("{:.{}g}", value, more);
+  return text;
+}
+
 }  // namespace slipscale

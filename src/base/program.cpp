@@ -148,6 +148,18 @@ void start_petsc(std::vector<char*>& arguments) {
         take_petsc_message() + "; correct or remove them");
 }
 
+/// Of variables and files. PETSc is not to find them when it ends either.
+void refuse_petsc_values(const std::vector<Written>& options) {
+  try {
+    check_petsc_values(options);
+  } catch (const UserError&) {
+    for (const Written& option : options)
+      if (names::petsc_system(option.name))
+        petsc(PetscOptionsClearValue(nullptr, ("-" + option.name).c_str()));
+    throw;
+  }
+}
+
 int run_in_petsc(const Program& program, const CommandLine& line, const std::vector<Written>& own) {
   std::vector<std::string> words = petsc_arguments(program, line);
   std::vector<char*> arguments;
@@ -159,6 +171,9 @@ int run_in_petsc(const Program& program, const CommandLine& line, const std::vec
     for (const std::string& file : line.option_files)
       for (const Written& option : options_of_petsc_file(file)) written.push_back(option);
     written.insert(written.end(), own.begin(), own.end());
+    std::vector<Written> found = PlacesOfPetsc().all();
+    found.insert(found.end(), written.begin(), written.end());
+    refuse_petsc_values(found);
     fill_database(program, written, arguments);
     Options options(program.name, program.schema, written, program.solvers);
     program.run(options);
@@ -208,7 +223,7 @@ int answer(int argc, char** argv, const Program& program) {
     print(version_line(program));
     return 0;
   }
-  check_petsc_values(line);
+  check_petsc_values(line.options);
   for (const std::string& file : line.option_files) (void)read_on_all("-options_file", file);
   return run_in_petsc(program, line, read_all(program, line));
 }

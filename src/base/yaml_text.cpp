@@ -105,7 +105,8 @@ class Entries {
 
   static void add_word(const Node& word, YamlEntry& entry) {
     if (word.plain && rank(word.text) > rank(entry.doubt)) entry.doubt = word.text;
-    entry.value = entry.value.value_or("") + word.text;
+    if (!entry.value) entry.value.emplace();
+    *entry.value += word.text;  // in place: of a long list copies would cost its square
   }
 
   std::vector<YamlEntry> entries_;

@@ -63,6 +63,16 @@ std::string names_of(MPI_Comm comm, const Mesh& mesh, std::vector<std::array<int
   return text;
 }
 
+/// Materials that homogenize itself was not content with.
+std::string doubtful(const Model& model) {
+  std::string text;
+  for (std::size_t r = 0; r < model.materials.size(); ++r)
+    if (const std::string& doubt = model.materials[r].doubt; !doubt.empty())
+      text += (text.empty() ? "the homogenised material" : "; that") + std::string(" of region '") +
+              model.mesh.regions[r].name + "' is doubtful: " + doubt;
+  return text;
+}
+
 /// Edges at or below the height of the lowest contact node: what is level with it, or will meet the surface
 /// before it does.
 std::string uncovered(const SlidingBody& body) {
@@ -150,8 +160,9 @@ std::string locking(const Model& model) {
 }  // namespace
 
 std::vector<std::string> remarks_at_start(const SlidingBody& body) {
-  if (!body.scene().surface) return those_that_speak({locking(body.model())});
-  return those_that_speak({locking(body.model()), memory_below_step(body), uncovered(body)});
+  const std::string doubt = doubtful(body.model());
+  if (!body.scene().surface) return those_that_speak({doubt, locking(body.model())});
+  return those_that_speak({doubt, locking(body.model()), memory_below_step(body), uncovered(body)});
 }
 
 std::vector<std::string> remarks_at_end(const SlidingBody& body) {

@@ -151,9 +151,9 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   choice.step = time.step ? *time.step : std::min(time.safety * choice.limit, time.end);
   if (!(choice.step <= choice.limit))
     throw UserError(
-        format("-time_step is {:.6g} s, above the stable step of {:.6g} s for this mesh, beta2 and damping; "
+        format("-time_step is {} s, above the stable step of {:.6g} s for this mesh, beta2 and damping; "
                "use at most {:.4g} or auto",
-               choice.step, choice.limit, 0.99 * choice.limit));
+               apart_from(choice.limit, choice.step, 6), choice.limit, 0.99 * choice.limit));
   const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
   if (!(count <= most_steps))  // nor is it a number where the step is next to nothing
     throw UserError(

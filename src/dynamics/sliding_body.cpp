@@ -107,10 +107,11 @@ void SlidingBody::set_contact_nodes() {
     const double tolerance = 1e-6 * length[i];  // rounding tilts a straight side by far less
     if (clearance + u_.data()[i][1] < -tolerance)
       fault = format(
-          "-surface_height is {:g} m, but the body reaches down to {:g} m at x = {:g} m; lower the surface "
-          "or lift "
-          "the body with -initial_gap",
-          scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], mesh.nodes.position[i][0]);
+          "-surface_height is {:g} m, but the body reaches down to {} m at x = {:g} m; lower the surface or "
+          "lift the body with -initial_gap",
+          scene_.surface->height,
+          apart_from(scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], 6),
+          mesh.nodes.position[i][0]);
     contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
   }
   throw_together(comm_, shared);

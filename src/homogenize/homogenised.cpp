@@ -17,6 +17,10 @@ constexpr double rounding = 1e-8;  ///< what solver and rounding may add, relati
 constexpr std::array<const char*, 3> voigt_names{"xx", "yy", "xy"};
 
 std::string gpa(double pascal) { return format("{:#.6g}", pascal * giga); }
+std::string gpa_apart(double limit, double pascal) {
+  const std::string shown = gpa(pascal);
+  return shown == gpa(limit) ? apart_from(limit * giga, pascal * giga, 6) : shown;
+}
 
 /// GPa to so many decimals that the error bar shows two digits, or the largest entry six where there is none.
 class GigaPascal {
@@ -261,7 +265,8 @@ std::vector<std::string> doubts(const Homogenised& found) {
        checked_moduli(found, engineering_constants(effective_material(found).stiffness)))
     if (each.verdict.starts_with("VIOLATED"))
       all.push_back(format("the {} of {} GPa violates its Hashin-Shtrikman bounds, {} to {} GPa", each.name,
-                           gpa(each.value), gpa(each.low), gpa(each.high)));
+                           gpa_apart(each.value < each.low ? each.low : each.high, each.value), gpa(each.low),
+                           gpa(each.high)));
   return all;
 }
 

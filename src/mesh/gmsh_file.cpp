@@ -59,8 +59,15 @@ void read_format(GmshStream& in, const std::string& path, const std::string& byt
   in.line();
   if (form == "1") {
     in.set_binary();
-    if (in.integer() != 1)
+    constexpr PetscInt one_swapped = 1 << 24;
+    const PetscInt one = in.integer();
+    if (one == one_swapped)
       throw GmshFault("is written in the byte order of another machine; convert it with " + conversion(path));
+    if (one != 1)
+      throw GmshFault(
+          "says in $MeshFormat that it is binary (4.1 1 8), but what follows is not; write 4.1 0 8 there if "
+          "it "
+          "is text, or write the mesh again with gmsh -2 -format msh41");
   }
   in.close();
 }

@@ -122,19 +122,24 @@ Finding contact_within(const SideTree& tree, const Vector2& shift) {
   return plainest;
 }
 
-void check_contacts(const SideTree& tree, const std::vector<Vector2>& shifts) {
+/// `parts` of the mesh that share no vertex. A gap cures what touches only where one part touches itself:
+/// two would float.
+void check_contacts(const SideTree& tree, const std::vector<Vector2>& shifts, int parts) {
   const Finding here = contact_within(tree, {});
+  const bool one = parts == 1;
+  const std::string glue =
+      "; give the bodies common points and lines (Coherence or BooleanFragments of gmsh)";
   if (here.contact == Contact::node_on_node)
     throw GmshFault(": two nodes at " + at(here.place) +
-                    " coincide but are not one, so that nothing holds the cells together there; give the "
-                    "bodies common points and lines (Coherence or BooleanFragments of gmsh), or leave a gap");
+                    " coincide but are not one, so that nothing holds the cells together there" + glue +
+                    (one ? ", or leave a gap" : ""));
   if (here.contact == Contact::node_on_side)
     throw GmshFault(": the node at " + at(here.place) +
-                    " lies on the edge of a cell that it is no corner of; give the bodies common points and "
-                    "lines (Coherence or BooleanFragments of gmsh), or leave a gap");
+                    " lies on the edge of a cell that it is no corner of" + glue +
+                    (one ? ", or leave a gap" : ""));
   if (here.contact == Contact::crossing)
-    throw GmshFault(": bodies overlap near " + at(here.place) +
-                    "; cut them with BooleanFragments of gmsh, or move them apart");
+    throw GmshFault(": bodies overlap near " + at(here.place) + "; cut them with BooleanFragments of gmsh" +
+                    (one ? ", or move them apart" : ""));
   for (const Vector2& shift : shifts)
     for (const double sign : {1.0, -1.0}) {
       const Finding found = contact_within(tree, {sign * shift[0], sign * shift[1]});
@@ -170,8 +175,9 @@ int connected_parts(const PlainMesh& mesh) {
 }  // namespace
 
 void check_soundness(const PlainMesh& mesh, const Rows& around, const std::vector<Vector2>& shifts) {
-  check_contacts(SideTree(outer_sides(mesh, around)), shifts);
-  if (const int parts = connected_parts(mesh); parts > 1)
+  const int parts = connected_parts(mesh);
+  check_contacts(SideTree(outer_sides(mesh, around)), shifts, parts);
+  if (parts > 1)
     throw GmshFault(
         format("falls into {} parts that share no node, so that some of them float; keep one part, "
                "or mesh what is between them",

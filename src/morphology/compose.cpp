@@ -67,7 +67,7 @@ void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
 }
 
 void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
-  const GreyPicture picture = read_grey(recipe.image.file);
+  GreyPicture picture = read_grey(recipe.image.file);
   refuse_too_many(static_cast<double>(picture.columns) * picture.rows);
   for (int axis = 0; axis < 2; ++axis)
     if (const int across = axis == 0 ? picture.columns : picture.rows;
@@ -78,7 +78,10 @@ void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
           recipe.image.file, across, axis == 0 ? "columns" : "rows", recipe.room.periodic[1] ? "xy" : "x"));
   composed.block.upper = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
   composed.grid = {picture.columns, picture.rows};
+  const std::vector<int> unfiltered = regions_of(picture, recipe.image);
+  median_filter(picture, recipe.room.periodic, recipe.image.median);
   std::vector<int> region = regions_of(picture, recipe.image);
+  for (std::size_t k = 0; k < region.size(); ++k) composed.filtered += region[k] != unfiltered[k];
   composed.coloured = picture.coloured;
   composed.despeckled =
       despeckle(region, picture.columns, picture.rows, recipe.room.periodic, recipe.image.despeckle);
@@ -141,12 +144,16 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
 
 }  // namespace
 
+double expected_cells(const Recipe& recipe) {
+  if (recipe.composite == Composite::image) return 0;
+  const double size = recipe.mesh.size.bulk;
+  return 2.3 * recipe.room.block.width() * recipe.room.block.height() / (size * size);
+}
+
 Composed compose(const Recipe& recipe, GmshModel& gmsh) {
   Composed composed;
   composed.block = recipe.room.block;
-  if (recipe.composite != Composite::image)
-    refuse_too_many(2.3 * composed.block.width() * composed.block.height() /
-                    (recipe.mesh.size.bulk * recipe.mesh.size.bulk));
+  refuse_too_many(expected_cells(recipe));
   switch (recipe.composite) {
     case Composite::homogeneous:
       if (recipe.mesh.cell == CellShape::grid)

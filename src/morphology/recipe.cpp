@@ -137,6 +137,7 @@ void read_image(const Options& options, Recipe& recipe) {
            options.reals("image_levels"),
            {},
            options.real("image_pixel"),
+           static_cast<int>(options.integer("image_median")),
            options.integer("image_despeckle")};
   for (std::size_t k = 1; k < image.levels.size(); ++k)
     if (image.levels[k] <= image.levels[k - 1])

@@ -10,7 +10,7 @@ const Names of_inclusions{"diameter", "diameter_deviation", "diameter_distributi
                           "aspect",   "rounding",           "angle_deviation"},
     of_placement{"arrangement", "columns", "rows", "seed", "gap", "clearance", "edge", "keep_out", "repair"},
     of_laminate{"layer_period"},
-    of_image{"image_file", "image_levels", "image_regions", "image_pixel", "image_despeckle"},
+    of_image{"image_file", "image_levels", "image_regions", "image_pixel", "image_median", "image_despeckle"},
     of_inclusions_and_layers{"fraction", "angle"}, of_interfaces{"size_interface"},
     of_free_mesh{"size_surface", "size_growth", "worst_angle"},
     of_size{"block_width", "block_height", "size", "cell"}, of_rows{"structured"};

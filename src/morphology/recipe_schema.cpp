@@ -8,6 +8,7 @@ const Range below_45{"at least 0 and below 45", [](double x) { return x >= 0 && 
 const Range below_one{"above 0 and below 1", [](double x) { return x > 0 && x < 1; }};
 const Range count{"from 1 to 2147483647", [](double x) { return x >= 1; }};
 const Range natural{"from 0 to 2147483647", [](double x) { return x >= 0; }};
+const Range reach{"from 0 to 20", [](double x) { return x >= 0 && x <= 20; }};
 const Range grey{"above 0 and at most 1", [](double x) { return x > 0 && x <= 1; }};
 
 Schema block_schema() {
@@ -93,6 +94,8 @@ Schema placement_schema() {
        {},
        "names from dark to bright, with commas; matrix and inclusion when there is one level"},
       {"image_pixel", Kind::real, "m", required, range::positive, "side of a pixel"},
+      {"image_median", Kind::integer, "1", "0", reach,
+       "each grey level becomes the median of those at most so many pixels away along both axes"},
       {"image_despeckle", Kind::integer, "1", "0", natural,
        "islands of one region with fewer pixels than this go to the region around them"},
   };

@@ -71,8 +71,14 @@ std::string placement_line(const Composed& composed) {
   return text + "\n";
 }
 
-double changed_part(const Composed& composed) {
-  return static_cast<double>(composed.despeckled) / composed.grid[0] / composed.grid[1];
+double part_of_picture(const Composed& composed, long pixels) {
+  return static_cast<double>(pixels) / composed.grid[0] / composed.grid[1];
+}
+
+std::string changed(const std::string& option, long value, const Composed& composed, long pixels) {
+  return value == 0 ? ""
+                    : format("-{} {} changed the region of {} pixels, {:.3g} of the area\n", option, value,
+                             pixels, part_of_picture(composed, pixels));
 }
 
 std::string fit_line(const Composed& composed) {
@@ -109,9 +115,8 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
             engineering(composed.block.width() / composed.grid[0], "m") + " x " +
             engineering(composed.block.height() / composed.grid[1], "m") + "\n";
   if (composed.coloured) text += "the picture is coloured: its grey is the luma .299 R + .587 G + .114 B\n";
-  if (recipe.image.despeckle > 0)
-    text += format("-image_despeckle {} changed {} pixels, {:.3g} of the area\n", recipe.image.despeckle,
-                   composed.despeckled, changed_part(composed));
+  text += changed("image_median", recipe.image.median, composed, composed.filtered) +
+          changed("image_despeckle", recipe.image.despeckle, composed, composed.despeckled);
   if (recipe.mesh.cell == CellShape::grid) text += fit_line(composed);
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
@@ -154,8 +159,12 @@ std::string morphology_yaml(const std::map<std::string, std::string>& effective,
     }
     if (!composed.drawn_area.empty())
       yaml.number("area_error", area_error(composed), "largest, of an inclusion, meshed against drawn");
+    if (recipe.image.median > 0)
+      yaml.exact("median_filtered", part_of_picture(composed, composed.filtered),
+                 "of the area, that went to another region");
     if (recipe.image.despeckle > 0)
-      yaml.exact("despeckled", changed_part(composed), "of the area, that went to another region");
+      yaml.exact("despeckled", part_of_picture(composed, composed.despeckled),
+                 "of the area, that went to another region after it");
     yaml.number("smallest_angle", quality.smallest_angle / degree, "degree");
     yaml.number("largest_angle", quality.largest_angle / degree, "degree");
     yaml.number("step_length", quality.step_length,

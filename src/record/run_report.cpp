@@ -84,6 +84,8 @@ void Recorder::write_run(const Options& options) const {
     for (std::size_t r = 0; r < model.materials.size(); ++r) {
       const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
       yaml.numbers("wave_speeds_" + mesh.regions[r].name, {speeds.fast, speeds.slow}, "m/s along y");
+      if (const std::string& doubt = model.materials[r].doubt; !doubt.empty())
+        yaml.text("doubt_" + mesh.regions[r].name, doubt);
     }
   };
   auto effective = options.effective();

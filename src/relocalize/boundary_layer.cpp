@@ -70,11 +70,15 @@ struct BoundaryLayer::Layer {
   RankShare mine;
   std::vector<char> inside, kept;  ///< [cells], of the strip and of its lower half
   StripPoints points;
-  std::vector<char> closed;  ///< [contact nodes], of the system below
   std::unique_ptr<StripSystem> system;
-  std::vector<double> borne;  ///< [contact nodes] pressure found over that of the run, lately
+  /// By contact node: how all of them move under 1 N/m along y there, where that was needed already; none
+  /// elsewhere. By reciprocity also how far that node moves along y under forces at the others.
+  std::vector<std::vector<Vector2>> response;
+  std::vector<char> closed;                ///< [contact nodes]
+  std::vector<int> held;                   ///< the closed ones
+  Eigen::LLT<Eigen::MatrixXd> compliance;  ///< [held, held] m per N/m along y
+  std::vector<double> borne;               ///< [contact nodes] pressure found over that of the run, lately
   int factorisations = 0;
-  std::vector<PlaneTensor> sum;  ///< [share] stress with the corrector's, Pa
 
   Layer(MPI_Comm on, const PlaneGrid& mesh, std::span<const Eigen::Matrix3d> c, RankShare share, double depth)
       : comm(on),
@@ -84,8 +88,8 @@ struct BoundaryLayer::Layer {
         inside(cells_below(mesh, bounding_box(mesh).lower[1] + depth)),
         kept(cells_below(mesh, bounding_box(mesh).lower[1] + 0.5 * depth)),
         points(mesh, inside),
-        borne(points.contact_count(), 1.0),
-        sum(share.count()) {
+        response(points.contact_count()),
+        borne(points.contact_count(), 1.0) {
     refuse_depth(mesh, inside, depth);
   }
 
@@ -112,16 +116,52 @@ struct BoundaryLayer::Layer {
     return force;
   }
 
-  /// The strip with these contact nodes closed.
-  void hold(const std::vector<char>& now) {
-    if (system && now == closed) return;
-    closed = now;
-    system = std::make_unique<StripSystem>(comm, grid, points, closed);
+  /// The strip, its contact nodes free.
+  void factorise() {
+    if (system) return;
+    system = std::make_unique<StripSystem>(comm, grid, points);
     for_cells(inside, [&](int cell, std::size_t) {
       system->add_cell(cell, element_stiffness(grid.corners_of(cell), stiffness[grid.region[cell]]));
     });
     system->factorise();
     ++factorisations;
+  }
+
+  /// Closes these contact nodes: what they do to one another is known from one solution for each of them.
+  void hold(const std::vector<char>& now) {
+    if (now == closed) return;
+    closed = now;
+    held.clear();
+    std::vector<int> missing;
+    for (std::size_t n = 0; n < closed.size(); ++n) {
+      if (!closed[n]) continue;
+      held.push_back(static_cast<int>(n));
+      if (response[n].empty()) missing.push_back(static_cast<int>(n));
+    }
+    auto found = system->responses(missing);
+    for (std::size_t k = 0; k < missing.size(); ++k) response[missing[k]] = std::move(found[k]);
+    const auto count = static_cast<Eigen::Index>(held.size());
+    Eigen::MatrixXd among(count, count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      for (Eigen::Index m = 0; m < count; ++m) among(k, m) = response[held[k]][held[m]][1];
+    compliance.compute(0.5 * (among + among.transpose()));
+  }
+
+  /// Reactions along y that keep the held nodes where they are, N/m, when `moved` [contact nodes] is how far
+  /// the forces of the run alone move them and `added` acts besides.
+  std::vector<double> reactions(const std::vector<Vector2>& moved, const std::vector<Vector2>& added) const {
+    Eigen::VectorXd way(static_cast<Eigen::Index>(held.size()));
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      const std::vector<Vector2>& of = response[held[k]];
+      double sum = moved[held[k]][1];
+      for (std::size_t m = 0; m < added.size(); ++m) sum += of[m][0] * added[m][0] + of[m][1] * added[m][1];
+      way[static_cast<Eigen::Index>(k)] = -sum;
+    }
+    std::vector<double> push(added.size(), 0.0);
+    if (held.empty()) return push;
+    const Eigen::VectorXd found = compliance.solve(way);
+    for (std::size_t k = 0; k < held.size(); ++k) push[held[k]] = found[static_cast<Eigen::Index>(k)];
+    return push;
   }
 
   /// The strain that the corrector adds to a cell.
@@ -141,20 +181,17 @@ struct BoundaryLayer::Layer {
     });
     system->add_contact(added);
     system->solve();
-    for_cells(inside, [&](int cell, std::size_t place) {
-      vector(sum[place]) = stiffness[grid.region[cell]] * (vector(strain[place]) + corrector(cell));
-    });
   }
 
-  /// Solves with the friction of the pressure that is found, until both agree; open nodes bear nothing.
-  /// Returns the contact forces.
-  std::vector<Vector2> rub(std::span<const PlaneTensor> strain, std::span<const PlaneTensor> stress,
-                           const std::vector<Vector2>& run) {
+  /// The friction of the pressure that is found, until both agree; open nodes bear nothing. `added` becomes
+  /// what acts at the contact nodes beyond the run's forces, reactions included. Returns all that acts there.
+  std::vector<Vector2> rub(const std::vector<Vector2>& moved, const std::vector<Vector2>& run,
+                           std::vector<Vector2>& added) {
     constexpr double tolerance = 1e-10;
     constexpr int most = 200;
     double size = 0;
     for (const Vector2& f : run) size += std::abs(f[0]) + std::abs(f[1]);
-    std::vector<Vector2> added(run.size(), Vector2{});
+    added.assign(run.size(), Vector2{});
     for (std::size_t n = 0; n < run.size(); ++n) {
       if (!closed[n])
         added[n] = {-run[n][0], -run[n][1]};
@@ -162,17 +199,21 @@ struct BoundaryLayer::Layer {
         added[n][0] = (borne[n] - 1) * run[n][0];
     }
     for (int k = 0; k < most; ++k) {
-      solve(strain, stress, added);
-      const std::vector<Vector2> force = contact_forces(sum);
+      const std::vector<double> push = reactions(moved, added);
+      std::vector<Vector2> force(run.size()), next = added;
       double change = 0;
       for (std::size_t n = 0; n < run.size(); ++n) {
+        force[n] = {run[n][0] + added[n][0], run[n][1] + added[n][1] + push[n]};
         if (!closed[n] || !in_proportion(run[n])) continue;
-        const double wanted = run[n][0] / run[n][1] * force[n][1] - run[n][0];
-        change += std::abs(wanted - added[n][0]);
-        added[n][0] = wanted;
+        next[n][0] = run[n][0] / run[n][1] * force[n][1] - run[n][0];
+        change += std::abs(next[n][0] - added[n][0]);
         borne[n] = force[n][1] / run[n][1];
       }
-      if (change <= tolerance * size) return force;
+      if (change <= tolerance * size) {
+        for (std::size_t n = 0; n < run.size(); ++n) added[n][1] += push[n];
+        return force;
+      }
+      added = std::move(next);
     }
     throw UserError(
         "next to the contact, pressure and friction do not settle (-relocalize_correction strip); "
@@ -191,13 +232,19 @@ void BoundaryLayer::correct(std::span<const PlaneTensor> macroscopic_strain,
                             std::span<PlaneTensor> stress) {
   Layer& layer = *layer_;
   const std::vector<Vector2> run = layer.contact_forces(macroscopic_stress);
+  layer.factorise();
+  std::vector<Vector2> added(run.size(), Vector2{});
+  layer.solve(macroscopic_strain, macroscopic_stress, added);
+  const std::vector<Vector2> moved = layer.system->contact_displacement();
   std::vector<char> closed = pressed(run);
   do {
     layer.hold(closed);
-  } while (open_what_pulls(layer.rub(macroscopic_strain, macroscopic_stress, run), closed));
+  } while (open_what_pulls(layer.rub(moved, run, added), closed));
+  layer.solve(macroscopic_strain, macroscopic_stress, added);
   layer.for_cells(layer.kept, [&](int cell, std::size_t place) {
-    vector(strain[place]) = vector(macroscopic_strain[place]) + layer.corrector(cell);
-    stress[place] = layer.sum[place];
+    const Eigen::Vector3d total = vector(macroscopic_strain[place]) + layer.corrector(cell);
+    vector(strain[place]) = total;
+    vector(stress[place]) = layer.stiffness[layer.grid.region[cell]] * total;
   });
 }
 

@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "slipscale/base/print.hpp"
 #include "slipscale/files/yaml.hpp"
 #include "slipscale/relocalize/comparison_report.hpp"
 
@@ -115,6 +116,11 @@ std::string comparison_yaml(const Comparison& comparison) {
   yaml.text("reference", comparison.reference);
   yaml.number("layer", comparison.zones.layer, "m, depth from the contact");
   yaml.number("bulk", comparison.zones.bulk, "m, distance from every edge");
+  for (std::size_t k = 0; k < comparison.notes.size(); ++k) {
+    if (k == 0) yaml.begin("notes");
+    yaml.text(format("note_{}", k + 1), comparison.notes[k]);
+    if (k + 1 == comparison.notes.size()) yaml.end();
+  }
   if (!comparison.frames.empty()) write_total(yaml, comparison);
   if (!comparison.quantiles.empty()) write_quantiles(yaml, comparison);
   if (!comparison.statistics.empty()) write_statistics(yaml, comparison);

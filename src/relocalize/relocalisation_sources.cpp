@@ -63,10 +63,17 @@ void compare_materials(const RelocalisationSources& sources, std::vector<std::st
                100 * *apart));
 }
 
+void repeat_doubts(const RunRecord& record, const std::string& option, std::vector<std::string>& notes) {
+  for (const std::string& doubt : doubts_of(record))
+    notes.push_back("-" + option + " ran with a homogenised material that is doubtful, that " + doubt);
+}
+
 void compare_records(MPI_Comm comm, const RelocalisationSources& sources, std::vector<std::string>& notes) {
+  const RunRecord run = read_run_record(comm, sources.run.folder());
+  repeat_doubts(run, "relocalize_run", notes);
   if (!sources.reference) return;
-  const RunRecord run = read_run_record(comm, sources.run.folder()),
-                  reference = read_run_record(comm, sources.reference->folder());
+  const RunRecord reference = read_run_record(comm, sources.reference->folder());
+  repeat_doubts(reference, "relocalize_reference", notes);
   std::string differences;
   for (const std::string& each : differences_of_scene(run, reference))
     differences += (differences.empty() ? "" : ", ") + each;

@@ -79,8 +79,11 @@ struct RelocalisedFile::File {
 };
 
 RelocalisedFile::RelocalisedFile(MPI_Comm comm, const PlaneGrid& grid, const RankShare& mine,
-                                 const std::string& folder)
-    : file_(std::make_unique<File>(comm, grid, mine, folder)) {}
+                                 const std::string& folder, const std::vector<std::string>& notes)
+    : file_(std::make_unique<File>(comm, grid, mine, folder)) {
+  if (notes.empty()) return;
+  file_->data.describe("/", [&](hid_t root) { write_attribute(root, "notes", notes); });
+}
 
 RelocalisedFile::~RelocalisedFile() = default;
 

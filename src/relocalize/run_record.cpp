@@ -76,4 +76,13 @@ std::vector<std::string> differences_of_scene(const RunRecord& one, const RunRec
   return found;
 }
 
+std::vector<std::string> doubts_of(const RunRecord& record) {
+  constexpr std::string_view beginning = "run_doubt_";
+  std::vector<std::string> found;
+  for (const auto& [name, value] : record)
+    if (name.starts_with(beginning))
+      found.push_back("of region '" + name.substr(beginning.size()) + "': " + value);
+  return found;
+}
+
 }  // namespace slipscale

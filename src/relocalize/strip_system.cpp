@@ -50,14 +50,8 @@ bool StripPoints::touches_contact(int cell) const {
   return false;
 }
 
-StripSystem::StripSystem(MPI_Comm comm, const PlaneGrid& grid, const StripPoints& points,
-                         const std::vector<char>& closed)
-    : comm_(comm), grid_(grid), points_(points), unknown_(points.count(), {-1, -1}) {
-  for (std::size_t node = 0; node < unknown_.size(); ++node) {
-    const int contact = points.contact_of_free()[node];
-    unknown_[node][0] = count_++;
-    if (contact < 0 || !closed[contact]) unknown_[node][1] = count_++;
-  }
+StripSystem::StripSystem(MPI_Comm comm, const PlaneGrid& grid, const StripPoints& points)
+    : comm_(comm), grid_(grid), points_(points), count_(2 * static_cast<PetscInt>(points.count())) {
   petsc(MatCreate(comm, matrix_.put()));
   petsc(MatSetSizes(matrix_, PETSC_DECIDE, PETSC_DECIDE, count_, count_));
   petsc(MatSetType(matrix_, MATAIJ));
@@ -77,7 +71,7 @@ std::array<PetscInt, 8> StripSystem::rows(int cell) const {
   std::array<PetscInt, 8> found{};
   for (int k = 0; k < grid_.corner_count(cell); ++k) {
     const int node = points_.free_node(cell, k);
-    for (int i = 0; i < 2; ++i) found[2 * k + i] = node < 0 ? -1 : unknown_[node][i];
+    for (int i = 0; i < 2; ++i) found[2 * k + i] = node < 0 ? -1 : 2 * node + i;
   }
   return found;
 }
@@ -117,8 +111,8 @@ void StripSystem::add_contact(const std::vector<Vector2>& force) {
   petsc(VecGetOwnershipRange(force_, &begin, &end));
   for (std::size_t contact = 0; contact < force.size(); ++contact)
     for (int i = 0; i < 2; ++i) {
-      const PetscInt row = unknown_[points_.free_of_contact()[contact]][i];
-      if (row >= begin && row < end) petsc(VecSetValue(force_, row, force[contact][i], ADD_VALUES));
+      const PetscInt place = row(static_cast<int>(contact), i);
+      if (place >= begin && place < end) petsc(VecSetValue(force_, place, force[contact][i], ADD_VALUES));
     }
 }
 
@@ -135,6 +129,48 @@ void StripSystem::solve() {
   petsc(VecGetArrayRead(everywhere_, &values));
   std::copy_n(values, values_.size(), values_.begin());
   petsc(VecRestoreArrayRead(everywhere_, &values));
+}
+
+std::vector<Vector2> StripSystem::contact_displacement() const {
+  std::vector<Vector2> found;
+  for (std::size_t k = 0; k < points_.contact_count(); ++k)
+    found.push_back({values_[row(static_cast<int>(k), 0)], values_[row(static_cast<int>(k), 1)]});
+  return found;
+}
+
+std::vector<std::vector<Vector2>> StripSystem::responses(const std::vector<int>& contacts) const {
+  constexpr std::size_t at_once = 32;  // right-hand sides of one pair of triangular solves
+  const std::size_t width = points_.contact_count();
+  std::vector<std::vector<Vector2>> found(contacts.size(), std::vector<Vector2>(width, Vector2{}));
+  PetscInt begin = 0, end = 0;
+  petsc(VecGetOwnershipRange(force_, &begin, &end));
+  const auto is_mine = [&](PetscInt place) { return place >= begin && place < end; };
+  for (std::size_t first = 0; first < contacts.size(); first += at_once) {
+    const auto columns = static_cast<PetscInt>(std::min(at_once, contacts.size() - first));
+    OwnedMat force, moved;
+    petsc(MatCreateDense(comm_, end - begin, PETSC_DECIDE, count_, columns, nullptr, force.put()));
+    for (PetscInt c = 0; c < columns; ++c)
+      if (const PetscInt place = row(contacts[first + c], 1); is_mine(place))
+        petsc(MatSetValue(force, place, c, 1, INSERT_VALUES));
+    petsc(MatAssemblyBegin(force, MAT_FINAL_ASSEMBLY));
+    petsc(MatAssemblyEnd(force, MAT_FINAL_ASSEMBLY));
+    petsc(MatDuplicate(force, MAT_DO_NOT_COPY_VALUES, moved.put()));
+    petsc(KSPMatSolve(ksp_, force, moved));
+    const PetscScalar* values = nullptr;
+    PetscInt stride = 0;
+    petsc(MatDenseGetLDA(moved, &stride));
+    petsc(MatDenseGetArrayRead(moved, &values));
+    for (PetscInt c = 0; c < columns; ++c)
+      for (std::size_t k = 0; k < width; ++k)
+        for (int i = 0; i < 2; ++i)
+          if (const PetscInt place = row(static_cast<int>(k), i); is_mine(place))
+            found[first + c][k][i] = values[c * stride + place - begin];
+    petsc(MatDenseRestoreArrayRead(moved, &values));
+    for (PetscInt c = 0; c < columns; ++c)
+      MPI_Allreduce(MPI_IN_PLACE, found[first + c].data(), static_cast<int>(2 * width), MPI_DOUBLE, MPI_SUM,
+                    comm_);
+  }
+  return found;
 }
 
 StripSystem::CellVector StripSystem::displacement(int cell) const {

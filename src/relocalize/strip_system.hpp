@@ -41,13 +41,11 @@ class StripPoints {
   std::size_t free_count_ = 0, contact_count_ = 0;
 };
 
-/// Linear elasticity of the strip with closed contact nodes held along y: factorised once, solved often.
-/// Every rank adds its own cells. All members but those that only look are collective.
+/// Linear elasticity of the strip, all of its contact nodes free: factorised once, solved often. Every rank
+/// adds its own cells. All members but those that only look are collective.
 class StripSystem {
  public:
-  /// `closed` [contact nodes].
-  StripSystem(MPI_Comm comm, const PlaneGrid& grid, const StripPoints& points,
-              const std::vector<char>& closed);
+  StripSystem(MPI_Comm comm, const PlaneGrid& grid, const StripPoints& points);
 
   void add_cell(int cell, const ElementStiffness& stiffness);
   void factorise();
@@ -57,18 +55,23 @@ class StripSystem {
   void add_force(int cell, const CellVector& force);    ///< N/m, corner-wise (x, y)
   void add_contact(const std::vector<Vector2>& force);  ///< [contact nodes] N/m, the same on every rank
   void solve();
-  CellVector displacement(int cell) const;  ///< m, of the last solution
+  CellVector displacement(int cell) const;            ///< m, of the last solution
+  std::vector<Vector2> contact_displacement() const;  ///< [contact nodes] m, of the last solution
+
+  /// Displacement of all contact nodes under a force of 1 N/m along y at each of `contacts` alone,
+  /// [contacts][contact nodes], m per N/m.
+  std::vector<std::vector<Vector2>> responses(const std::vector<int>& contacts) const;
 
   PetscInt unknowns() const { return count_; }
 
  private:
   std::array<PetscInt, 8> rows(int cell) const;
+  PetscInt row(int contact, int axis) const { return 2 * points_.free_of_contact()[contact] + axis; }
 
   MPI_Comm comm_;
   const PlaneGrid& grid_;
   const StripPoints& points_;
-  std::vector<std::array<PetscInt, 2>> unknown_;  ///< [free nodes] of x and y; −1 where held
-  PetscInt count_ = 0;
+  PetscInt count_;  ///< x and y of each free node in turn
   OwnedMat matrix_;
   OwnedVec force_, solution_, everywhere_;  ///< the last: the solution, whole on each rank
   OwnedScatter scatter_;

@@ -36,6 +36,7 @@ Material from_file(const std::string& option, const std::string& path) {
   material.stiffness = voigt("'stiffness' in '" + path + "'", file.stiffness);
   material.density = file.density;
   material.description = six_numbers(material.stiffness) + format(", {:.4g} kg/m3 ({})", file.density, path);
+  material.doubt = file.doubt;
   if (!file.doubt.empty()) material.description += "; DOUBTFUL: " + file.doubt;
   return material;
 }
@@ -58,7 +59,7 @@ Material read_one(const Options& options, const std::string& region) {
   } else {
     const double young = options.real(prefix + "young"), poisson = options.real(prefix + "poisson");
     material.stiffness = isotropic_stiffness(young, poisson);
-    material.description = format("E {:.4g} GPa, nu {:.4g}", young * 1e-9, poisson);
+    material.description = format("E {:.4g} GPa, nu ", young * 1e-9) + apart_from(0.5, poisson, 4);
   }
   material.density = options.real(prefix + "density");
   material.description += format(", {:.4g} kg/m3", material.density);

@@ -52,3 +52,11 @@ TEST(Table, WideLettersCountOnceAndRowsMayBeShort) {
             "c  1234\n");
   EXPECT_EQ(table({}), "");
 }
+
+TEST(ApartFrom, HasTheDigitsThatTell) {
+  EXPECT_EQ(apart_from(0.5, 0.25, 4), "0.25");
+  EXPECT_EQ(apart_from(0.5, 0.4999999, 4), "0.4999999");
+  EXPECT_EQ(apart_from(0.5, 0.5, 4), "0.5");
+  EXPECT_EQ(apart_from(1.25e-8, 1.2500001e-8, 4), "1.2500001e-08");
+  EXPECT_NE(apart_from(1, std::nextafter(1.0, 2.0), 3), "1");
+}

@@ -4,7 +4,7 @@
 
 localization.h5, fields.h5 and statistics.h5 go to `relocalize`, effective.yaml goes to `slide`. Damage is done where
 the format has a place for it (a dataset of another size or kind, numbers that are none, an attribute that is a list)
-and anywhere else (bytes turned over, files cut): damage.py. A reader may take it or refuse it with one sentence and
+and anywhere else (bytes turned over, files cut): damage_hdf5.py. A reader may take it or refuse it with one sentence and
 exit code 2. It fails when it crashes, takes longer than `--hang` seconds or more memory than `--memory` MB, says
 something else, takes what cannot be true, or writes what is not finite. Failing files are kept. The same seed makes the same
 damage.
@@ -13,11 +13,9 @@ The environment says where the programs are, as for tests/programs: SLIPSCALE_SL
 """
 
 import argparse
-import os
 import random
 import re
 import shutil
-import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
@@ -26,7 +24,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "programs"))
 
 import numpy as np  # noqa: E402
-from damage import damaged_hdf5, damaged_yaml  # noqa: E402
+from damage import watched  # noqa: E402
+from damage_hdf5 import damaged_hdf5, damaged_yaml  # noqa: E402
 from relocalizing import HOMOGENEOUS, RELOCALIZE, Relocalising  # noqa: E402
 from running import SLIDE, arguments_of, h5py  # noqa: E402
 from scenes import block  # noqa: E402
@@ -109,23 +108,8 @@ def not_finite(path):
 
 def run(reader, folder, limits):
     """Exit code, stderr, seconds and MB of the largest process."""
-    start = time.monotonic()
-    with open(folder / "err", "wb") as err:
-        child = subprocess.Popen([reader.program, *arguments_of(reader.options)], cwd=folder, stdin=subprocess.DEVNULL,
-                                 stdout=subprocess.DEVNULL, stderr=err)
-        while True:
-            pid, status, usage = os.wait4(child.pid, os.WNOHANG)
-            seconds = time.monotonic() - start
-            if pid:
-                break
-            if seconds > limits.hang:
-                child.kill()
-                _, status, usage = os.wait4(child.pid, 0)
-                break
-            time.sleep(0.01)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    text = (folder / "err").read_text(errors="replace")
-    return child.returncode, text, seconds, usage.ru_maxrss / 1024
+    code, _, err, seconds, memory = watched([reader.program, *arguments_of(reader.options)], folder, limits.hang)
+    return code, err, seconds, memory
 
 
 def main():

@@ -67,6 +67,12 @@ TEST_F(BadMesh, ByteOrderOfAnotherMachine) {
   expect(complaint(written(bytes)), "byte order", "gmsh -0 ");
 }
 
+/// "4.1 1 8" written over a text, by hand or by a script.
+TEST_F(BadMesh, TextThatSaysItIsBinary) {
+  expect(complaint(written(replaced(file.text(), "4.1 0 8", "4.1 1 8"))), "what follows is not",
+         "write 4.1 0 8");
+}
+
 TEST_F(BadMesh, PartitionedByGmsh) {
   file.entities += "$EndEntities\n$PartitionedEntities\n1\n0\n0 0 0 0\n$EndPartitionedEntities\n";
   std::string text = file.text();

@@ -100,6 +100,24 @@ TEST(Soundness, Overlap) {
          "two cells lie on the same side of their common edge", "mesh the surface again");
 }
 
+/// Bodies that hang together nowhere else would float when they are moved apart: that is no cure.
+TEST(Soundness, TheCureCures) {
+  const std::vector<Corner> below{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const std::vector<Corner>& above : {std::vector<Corner>{{0, 1}, {1, 1}, {1, 2}, {0, 2}},
+                                           {{.25, 1}, {.75, 1}, {.75, 2}, {.25, 2}},
+                                           {{.25, .5}, {.75, .5}, {.75, 2}, {.25, 2}}}) {
+    std::vector<Corner> nodes = below;
+    nodes.insert(nodes.end(), above.begin(), above.end());
+    const std::string said = complaint(mesh_of(nodes, {{1, 2, 3, 4}, {5, 6, 7, 8}}));
+    EXPECT_NE(said.find("BooleanFragments"), std::string::npos) << said;
+    EXPECT_EQ(said.find("gap"), std::string::npos) << said;
+    EXPECT_EQ(said.find("apart"), std::string::npos) << said;
+  }
+  expect(complaint(
+             mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {1, 2}, {0, 2}}, {{1, 2, 3, 4}, {4, 5, 6, 7}})),
+         "two nodes at (1, 1) m coincide", "or leave a gap");
+}
+
 /// A gap of a thousandth of an edge is a gap.
 TEST(Soundness, PartsThatShareNoNode) {
   for (const double gap : {1e-3, 1.0})

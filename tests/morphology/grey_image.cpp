@@ -122,6 +122,35 @@ TEST(GreyImage, RefusesHugePictures) {
   EXPECT_NE(refusal(path).find("ends early"), std::string::npos) << refusal(path);
 }
 
+/// Of 3 x 3 pixels: a lone bright pixel has eight dark neighbours and goes, in a corner of the picture and
+/// at its sides too; a straight edge stays, and so does a half plane across a seam.
+TEST(Median, TakesLonePixelsAndKeepsEdges) {
+  GreyPicture picture{6, 5, std::vector<double>(30, 0.1)};
+  for (int row = 0; row < 5; ++row)
+    for (int column = 3; column < 6; ++column) picture.grey[6 * row + column] = 0.8;
+  const std::vector<double> drawn = picture.grey;
+  for (const int speck : {0, 6 * 2, 6 * 4}) picture.grey[speck] = 1;
+  picture.grey[6 * 2 + 4] = 0;
+  median_filter(picture, {false, false}, 1);
+  EXPECT_EQ(picture.grey, drawn);
+  median_filter(picture, {true, true}, 1);
+  EXPECT_EQ(picture.grey, drawn);
+  median_filter(picture, {false, false}, 0);
+  EXPECT_EQ(picture.grey, drawn);
+}
+
+/// At a seam the neighbours stand on the other side of the picture: one bright column of six has two thirds
+/// of its neighbours dark, and goes; mirrored at the side it has two thirds of them bright, and stays.
+TEST(Median, LooksAcrossPeriodicSides) {
+  GreyPicture picture{6, 3, std::vector<double>(18, 0)};
+  for (int row = 0; row < 3; ++row) picture.grey[6 * row] = 1;
+  const std::vector<double> drawn = picture.grey;
+  median_filter(picture, {false, false}, 1);
+  EXPECT_EQ(picture.grey, drawn);
+  median_filter(picture, {true, false}, 1);
+  EXPECT_EQ(picture.grey, std::vector<double>(18, 0));
+}
+
 /// Islands by their sides: of 2 pixels one at the seam, of 1 pixel one beside it, and one of 4 that stays.
 TEST(Despeckle, GivesSmallIslandsToTheirSurroundings) {
   const std::vector<int> drawn{0, 0, 0, 0, 0, 0,  //

@@ -84,7 +84,8 @@ const Typed families{{"arrangement", "random"},
 const Typed layers{{"shape", "laminate"}, {"fraction", "0.25"}, {"layer_period", "1e-3"}, {"angle", "90"}};
 const Typed image{{"shape", "image"},      {"image_file", "grains.png"},
                   {"image_levels", "0.5"}, {"image_regions", "matrix,grain"},
-                  {"image_pixel", "1e-4"}, {"image_despeckle", "5"}};
+                  {"image_pixel", "1e-4"}, {"image_median", "1"},
+                  {"image_despeckle", "5"}};
 const Typed output{{"output_folder", "out"}};
 
 std::vector<Typed> meshes(bool has_interface) {

@@ -1,14 +1,16 @@
 """What `homogenize` makes of cells on which codes go wrong without a word: far from the origin, of nearly equal and of
 very unequal phases, nearly incompressible, with holes; and what it says of solvers and doubtful results."""
 
+import os
 import subprocess
 import unittest
 
 import numpy as np
+import yaml
 from finding import report
 from holes_exact import SquareArrayOfHoles
 from homogenising import RUN, SIDE, Homogenising, voigt
-from running import arguments_of
+from running import arguments_of, h5py
 from scenes import block
 
 SOLVER = 1e-9  # ten times its tolerance, relative
@@ -184,6 +186,32 @@ class Incompressible(Cells):
                              "fixed", "-time_end", "1e-9", "-output_folder", "slid")
         self.assertEqual(outcome.codes, [0], outcome.err)
         self.assertIn("DOUBTFUL: region 'matrix' is nearly incompressible", outcome.out)
+
+    def test_the_doubt_goes_with_the_material(self):
+        """Into what slide leaves, and into what relocalize makes of that."""
+        self.draw_cell(self.folder / "cell.msh")
+        self.run_cell(**self.MATRIX, **QUICK)
+        doubt = self.effective()["doubt"]
+        block(self.folder / "block.msh")
+        scene = {"mesh_file": "block.msh", "material_file": "out/effective.yaml", "boundary_top_y": -1e-7,
+                 "boundary_bottom_y": "fixed", "time_end": 1e-7, "fields_every": 100,
+                 "fields_quantities": "stress,strain"}
+        for ranks in (1, 2):
+            said = self.run_scene(scene, ranks=ranks, output_folder="slid").out
+            self.assertIn("note: the homogenised material of region 'block' is doubtful: " + doubt, said)
+            run, summary = (yaml.safe_load((self.folder / "slid" / name).read_text())
+                            for name in ("run.yaml", "summary.yaml"))
+            self.assertEqual(run["run"]["doubt_block"], doubt)
+            self.assertIn(doubt, "".join(summary["notes"].values()))
+            outcome = self.launch(os.environ["SLIPSCALE_RELOCALIZE"], "-relocalize_run", "slid", "-relocalize_tensors",
+                                  "out", "-output_folder", "local", ranks=ranks)
+            self.assertEqual((outcome.codes, outcome.err), ([0] * ranks, ""), outcome.out)
+            note = "-relocalize_run ran with a homogenised material that is doubtful, that of region 'block': " + doubt
+            self.assertIn("note: " + note, outcome.out)
+            with h5py.File(self.folder / "local" / "relocalized.h5") as file:
+                self.assertIn(note, [text.decode() if isinstance(text, bytes) else text for text in file.attrs["notes"]])
+        # The run file is a scene.
+        self.run_scene({"options_file_yaml": "slid/run.yaml", "output_folder": "again"})
 
     def test_sound_cells_are_not_doubted(self):
         self.draw_cell(self.folder / "cell.msh")

@@ -26,6 +26,7 @@ SHAPES = {
     "fitted block": {**GRID, "structured": None, "cell": "grid"},
     "picture": IMAGE,
     "despeckled picture": {**IMAGE, "image_despeckle": 5},
+    "filtered picture": {**IMAGE, "image_median": 1},
     "block": {**GRID, "structured": None},
     "grid": GRID,
     "grid of triangles": {**GRID, "cell": "triangle"},

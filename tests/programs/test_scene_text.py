@@ -1,6 +1,7 @@
 """Scenes as text and the process around a run: what YAML means, where options come from, signals, pipes, versions."""
 
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -92,6 +93,7 @@ class SceneText(InScratch):
         many = "".join(f"material_grain{k}_young: 1.0e+9\n" for k in range(250000))  # 8 MB
         self.refused_text(many + "a b\n", "is not valid YAML near line 250001")
         self.refused_text("a: {b: 1\n" + many, "is not valid YAML near line 1")
+        self.refused_text("a:\n" + "- b\n" * 1000000, "-a is not an option of slide")
 
     def test_hundreds_of_materials(self):
         count = 300
@@ -127,6 +129,60 @@ class SceneText(InScratch):
         self.refused(["-ksp_type was given in the variable PETSC_OPTIONS", "has read it"], *good)
         self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": "-fp_trap cg"}
         self.refused(["PETSC_OPTIONS", "cg"], *good)
+
+    def with_variable(self, text):
+        self.environment = lambda **more: {**InScratch.environment(self, **more), "PETSC_OPTIONS": text}
+
+    def test_what_petsc_collects_by_itself_is_told(self):
+        (self.folder / "scene.yaml").write_text(yaml_of({**SCENE, "damping_mass": 100}))
+        (self.folder / ".petscrc").write_text("-damping_mass 5e5\n-damping_stiffness 1e-9\n-log_view :profile.txt\n")
+        self.with_variable("-time_beta2 0.6")
+        for ranks in (1, 2):
+            outcome = self.slide("-options_file_yaml", "scene.yaml", "-time_beta2", "0.7", ranks=ranks)
+            self.assertEqual((outcome.codes, outcome.err), ([0] * ranks, ""), outcome.out)
+            for note in ("-damping_mass 5e5 stands in '.petscrc' and gives way to that of scene.yaml",
+                         "-damping_stiffness 1e-9 stands in '.petscrc'", "-log_view :profile.txt stands in '.petscrc'",
+                         "-time_beta2 0.6 stands in the variable PETSC_OPTIONS and gives way to that of the command line"):
+                self.assertEqual(outcome.out.split("\n").count("note: " + note), 1, outcome.out)
+            options = yaml.safe_load((self.folder / "out" / "run.yaml").read_text())
+            self.assertEqual([float(options[name]) for name in ("damping_mass", "damping_stiffness", "time_beta2")],
+                             [100, 1e-9, 0.7])
+        outcome = self.slide("-options_file_yaml", "scene.yaml", "-skip_petscrc")
+        self.assertEqual((outcome.codes, outcome.err), ([0], ""), outcome.out)
+        self.assertNotIn("petscrc'", outcome.out)
+
+    def test_stray_words_and_bad_values_of_petscs_own_places(self):
+        good = arguments_of(SCENE)
+        for text in ("damping_mass 5e5", "-damping_mass 5e5 6e5", "-log_view :a :b"):
+            self.with_variable(text)
+            word = text.split()[0 if text[0] != "-" else 2]
+            for ranks in (1, 2):
+                self.refused([f"'{word}' in the variable PETSC_OPTIONS belongs to no option"], *good, ranks=ranks)
+        self.with_variable("-options_view mumps")
+        self.refused(["-options_view is 'mumps'", "in the variable PETSC_OPTIONS"], *good)
+        self.with_variable("")
+        (self.folder / "solver.txt").write_text("-log_view mumps\n")
+        self.refused(["-log_view is 'mumps'", "in 'solver.txt'"], *good, "-options_file", "solver.txt")
+        for option, value in (("log_view", ":none/such"), ("citations", "none/such"), ("options_view", "ascii:none/such")):
+            for ranks in (1, 2):
+                self.refused([f"-{option} is '{value}'", "a folder that can be written to"], *good, "-" + option, value,
+                             ranks=ranks)
+
+    def test_a_name_is_looked_at_before_its_value(self):
+        self.refused(["-boundary_top_pressure_fi_x names the boundary 'top_pressure_fi', which the mesh does not have",
+                      "did you mean"], *arguments_of(SCENE), "-boundary_top_pressure_fi_x", "load.txt", ranks=2)
+        self.refused(["-boundary_top_x is 'load.txt'"], *arguments_of(SCENE), "-boundary_top_x", "load.txt")
+
+    def test_a_limit_is_told_from_what_stands_next_to_it(self):
+        near = {**SCENE, "material_block_poisson": 0.4999999}
+        outcome = self.run_scene(near)
+        self.assertIn("nu 0.4999999,", outcome.out)
+        step = yaml.safe_load((self.folder / "out" / "run.yaml").read_text())["run"]["stable_step"]
+        above = float(step) * (1 + 1e-9)
+        outcome = self.refused(["-time_step is", "above the stable step of"],
+                               *arguments_of({**near, "time_step": repr(above)}))
+        given, limit = (float(word) for word in re.findall(r"(\S+) s(?=,| for)", outcome.err))
+        self.assertGreater(given, limit)
 
     def test_values_that_petsc_cannot_read(self):
         good = arguments_of(SCENE)

@@ -182,6 +182,27 @@ TEST(BoundaryLayer, OpenNodesAreFree) {
   EXPECT_GT(pressed, 0);
 }
 
+// However many nodes open and close from frame to frame, the stiffness is factorised once, and each frame is
+// corrected as if it were the only one.
+TEST(BoundaryLayer, FactorisesOnce) {
+  const PlaneGrid grid = lattice();
+  const Share mine(grid);
+  BoundaryLayer layer(PETSC_COMM_WORLD, grid, stiffness, mine, depth);
+  for (const double open_from : {2.0, 0.5, 0.25, 0.75, 2.0}) {
+    State run = uniform(mine, pressing, load);
+    for (std::size_t k = 0; k < mine.count(); ++k)
+      if (centre(grid, static_cast<int>(mine.begin + k))[0] > open_from * across * side)
+        run.stress[k] = {2e5, 0, 0};
+    State local = uniform(mine, wrong_strain, wrong_stress);
+    layer.correct(run.strain, run.stress, local.strain, local.stress);
+    EXPECT_EQ(layer.factorisations(), 1);
+    const State alone = corrected(grid, stiffness, run);
+    for (std::size_t k = 0; k < mine.count(); ++k)
+      for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(local.stress[k][i], alone.stress[k][i], 1e-8 * std::abs(load[1])) << open_from;
+  }
+}
+
 // Tiles that touch share no points of their own: joined, they carry load across.
 TEST(BoundaryLayer, JoinsPointsOfTiles) {
   PlaneGrid tiles = lattice();

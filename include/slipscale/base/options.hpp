@@ -127,7 +127,7 @@ class Options {
   /// takes. Call when the scene is read.
   void refuse_unread() const;
 
-  /// What was set aside, one sentence each, for the user to see.
+  /// What was set aside, and what PETSc collected by itself, one sentence each, for the user to see.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Stops on any option that neither the schema declares nor PETSc has used. Call when set-up is done.
@@ -146,6 +146,7 @@ class Options {
   std::optional<std::string> value(const std::string& name) const;
   std::string needed(const std::string& name) const;
   void take(const Written& entry);
+  void tell_of(const std::vector<Written>& collected, const std::vector<Written>& written);
   void check(const Written& entry) const;
   bool is_petsc(const std::string& name) const;
   void refuse_if_unknown(const std::string& name, bool at_last) const;

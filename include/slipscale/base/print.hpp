@@ -28,4 +28,8 @@ std::string table(const std::vector<std::vector<std::string>>& rows);
 /// A quantity with an SI prefix and its unit, three or four digits: `engineering(3.2e-9, "s")` is "3.200 ns".
 std::string engineering(double value, const std::string& unit);
 
+/// The value with so many significant digits, or with as many more as tell it from the limit it is compared
+/// with: 0.4999999 next to 0.5 is not "0.5".
+std::string apart_from(double limit, double value, int digits);
+
 }  // namespace slipscale

@@ -22,11 +22,15 @@ struct Composed {
   int blunted = 0;            ///< its nodes on the sides where an interface cuts too flat for it
   int relieved = 0;           ///< moves of its nodes near the sides of the block for a longer step
   bool coloured = false;      ///< the picture's levels are the luma of its colours
-  long despeckled = 0;        ///< pixels of the picture that went to another region
+  long filtered = 0;          ///< pixels of the picture that the median filter brought to another region
+  long despeckled = 0;        ///< and those of small islands after it
   /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
   /// cells.
   int moved = 0, redrawn = 0, dropped = 0;
 };
+
+/// Cells that the recipe will have at least, nearly; 0 for pictures, which tell it themselves.
+double expected_cells(const Recipe& recipe);
 
 /// Draws the recipe and meshes it in `gmsh`, from where it can be written. Throws UserError for a recipe that
 /// cannot be drawn, and for cells that are worse than the recipe allows and cannot be mended.

@@ -23,6 +23,10 @@ struct GreyPicture {
 /// profile is applied. Throws UserError, for pixels that are transparent and for more than `most_pixels` too.
 GreyPicture read_grey(const std::string& path);
 
+/// Each grey level becomes the median of those in the square of 2·`reach` + 1 pixels around it, continued
+/// across periodic axes and mirrored at the other sides: single odd pixels go, straight edges stay.
+void median_filter(GreyPicture& picture, const std::array<bool, 2>& periodic, int reach);
+
 /// Gives islands of fewer than `smallest` pixels that touch by their sides to the region that has the most
 /// sides along them, the smallest islands first, across periodic sides as well. Returns the number of pixels
 /// that changed.

@@ -60,6 +60,7 @@ struct GreyImage {
   std::vector<double> levels;        ///< ascending, 0 to 1
   std::vector<std::string> regions;  ///< one more than levels, from dark to bright
   double pixel = 0;                  ///< side of a pixel, m
+  int median = 0;                    ///< half-width of the median filter's square, pixels; 0 is none
   long despeckle = 0;                ///< pixels of the smallest island that stays
 };
 

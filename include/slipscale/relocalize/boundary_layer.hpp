@@ -33,8 +33,9 @@ std::vector<int> joined_points(const PlaneGrid& grid);
 /// a seam too. Linear while the same nodes are closed, so means over time may be corrected as well; their
 /// deviations may not. Boundary-layer correctors: Dumontet, RAIRO Modél. Math. Anal. Numér. 20 (1986) 265.
 ///
-/// The strip's stiffness is factorised (MUMPS, Cholesky) when other nodes are
-/// closed than before; friction takes a few pairs of triangular solves.
+/// The strip's stiffness, all contact nodes free, is factorised once (MUMPS, Cholesky). What holds closed
+/// nodes is found from their compliance, for which each node is solved for once, when it first closes; a
+/// correction then takes two pairs of triangular solves, however often pressure and friction are iterated.
 class BoundaryLayer {
  public:
   /// `grid` is the whole mesh on every rank, `mine` this rank's cells of it, `stiffness` C by region [Pa],

@@ -31,6 +31,7 @@ struct Comparison {
   std::vector<StressQuantiles> quantiles;       ///< [parts], of the last frame
   std::vector<ComparedStatistic> statistics;
   std::vector<ComparedProbe> probes;
+  std::vector<std::string> notes;  ///< what is doubtful, or does not fit together
 };
 
 /// The sums over all frames, [parts].

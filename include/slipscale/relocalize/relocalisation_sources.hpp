@@ -30,7 +30,8 @@ struct RelocalisationSources {
   Targets targets(const RelocalisationChoice& choice) const;
 };
 
-/// What does not fit together though it can be worked with, a sentence each: the material of a run and that
+/// What is doubtful or does not fit together though it can be worked with, a sentence each: materials of the
+/// runs that homogenize was not content with; the material of a run and that
 /// of the tensors, as stress and strain of a frame tell it; the scenes of the two runs; the meshes of the
 /// tensors of a whole block and of the reference; missing statistics.
 std::vector<std::string> misfits(MPI_Comm comm, const RelocalisationSources& sources);

@@ -22,8 +22,9 @@ namespace slipscale {
 /// say, throws UserError on all.
 class RelocalisedFile {
  public:
-  /// `mine`: this rank's cells of the mesh.
-  RelocalisedFile(MPI_Comm comm, const PlaneGrid& grid, const RankShare& mine, const std::string& folder);
+  /// `mine`: this rank's cells of the mesh; `notes`, where there are any, become an attribute of the file.
+  RelocalisedFile(MPI_Comm comm, const PlaneGrid& grid, const RankShare& mine, const std::string& folder,
+                  const std::vector<std::string>& notes = {});
   ~RelocalisedFile();
 
   /// This rank's cells: local stress and strain, and the stress C_eff:E that the homogeneous run saw there.

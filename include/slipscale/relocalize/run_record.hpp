@@ -19,4 +19,7 @@ RunRecord read_run_record(MPI_Comm comm, const std::string& folder);
 /// (0.1 and 0.3)". None where one of the records is empty.
 std::vector<std::string> differences_of_scene(const RunRecord& one, const RunRecord& other);
 
+/// What homogenize was not content with in the materials of a run, "of region 'block': …"; empty as a rule.
+std::vector<std::string> doubts_of(const RunRecord& record);
+
 }  // namespace slipscale

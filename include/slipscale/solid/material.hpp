@@ -13,6 +13,7 @@ struct Material {
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< Voigt (xx, yy, xy), engineering shear, Pa
   double density = 0;                                   ///< kg/m³
   std::string description;                              ///< for tables: "E 30 GPa, nu 0.25, 1800 kg/m3"
+  std::string doubt = {};  ///< what the homogenisation that found it was not content with; or empty
 
   double c11() const { return stiffness(0, 0); }
   double c22() const { return stiffness(1, 1); }
