@@ -118,7 +118,7 @@ TEST(RepeatedRows, AreFoundWhereAGridIs) {
     EXPECT_GT(repeating, ranks == 1 ? 0.95 : 0.85);
     const auto [refined_gathered, refined_repeating] = parts(block_mesh(block, Partitioner::metis, 1));
     EXPECT_EQ(refined_gathered, 1);
-    EXPECT_GT(refined_repeating, 0.93);
+    EXPECT_GT(refined_repeating, ranks <= 2 ? 0.93 : 0.85);
     block.region = in_disc;
     const auto [disc_gathered, disc_repeating] = parts(block_mesh(block));
     EXPECT_EQ(disc_gathered, 1);
