@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
@@ -90,6 +91,8 @@ void Recorder::write_run(const Options& options) const {
 }
 
 std::string Recorder::finish() {
+  static const LogEvent event("Summary");
+  const LogEvent::Scope scope(event);
   progress_.finish();
   if (fields_) fields_->close();
   if (history_) history_->series().close();
