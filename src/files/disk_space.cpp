@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <vector>
 
 #include "slipscale/base/error.hpp"
@@ -18,7 +19,8 @@ namespace {
 /// An open file, closed on the way out.
 class File {
  public:
-  explicit File(const std::string& path) : number_(open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+  explicit File(const std::string& path, int flags = O_WRONLY)
+      : number_(open(path.c_str(), flags | O_CLOEXEC)) {
     if (number_ < 0) throw LibraryError(std::strerror(errno));
   }
   ~File() { (void)close(number_); }
@@ -60,6 +62,21 @@ void reserve_space(const std::string& path, std::uint64_t from, std::uint64_t by
     throw LibraryError(std::strerror(reason));
 }
 
+void Reservation::reach(const std::string& path, std::uint64_t from, std::uint64_t bytes) {
+  if (from + bytes <= end_) {  // but the file may have been removed
+    if (access(path.c_str(), F_OK) != 0) throw LibraryError(std::strerror(errno));
+    return;
+  }
+  const std::uint64_t ahead = 2 * bytes;
+  try {
+    reserve_space(path, from, ahead);
+    end_ = from + ahead;
+  } catch (const LibraryError&) {
+    reserve_space(path, from, bytes);
+    end_ = from + bytes;
+  }
+}
+
 void fill_with_zeros(const std::string& path, std::uint64_t size) {
   refuse_above_limit(size);
   const File file(path);
@@ -87,6 +104,15 @@ void fill_with_zeros(const std::string& path, std::uint64_t size) {
 
 void give_back_space(const std::string& path, std::uint64_t size) {
   if (truncate(path.c_str(), static_cast<off_t>(size)) != 0) throw LibraryError(std::strerror(errno));
+}
+
+void sync_file(const std::string& path) {
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  const File file(path, O_RDONLY), place(folder, O_RDONLY | O_DIRECTORY);
+  if (fsync(file) != 0) throw LibraryError(std::strerror(errno));
+  // Some file systems have nothing to write for a folder, and say so.
+  if (fsync(place) != 0 && errno != EINVAL && errno != ENOTSUP) throw LibraryError(std::strerror(errno));
 }
 
 }  // namespace slipscale

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -20,13 +21,6 @@ void require(bool fine, const std::string& path, const char* fault) {
 
 Hdf5Dataset open(hid_t file, const std::string& path) {
   return Hdf5Dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
-}
-
-std::vector<hsize_t> shape_of(hid_t dataset, const std::string& path) {
-  const Hdf5Space space(hdf5(H5Dget_space(dataset), path));
-  std::vector<hsize_t> shape(static_cast<std::size_t>(hdf5(H5Sget_simple_extent_ndims(space), path)));
-  hdf5(H5Sget_simple_extent_dims(space, shape.data(), nullptr), path);
-  return shape;
 }
 
 /// As a double: what a damaged file declares may be more than a whole number can be.
@@ -83,17 +77,14 @@ GridFile::GridFile(MPI_Comm comm, GridFileSource source) : comm_(comm), source_(
   std::error_code ignored;
   if (fs::is_directory(source_.path, ignored)) source_.path += "/" + source_.name;
   std::string fault;
+  if (is_root(comm_)) recover_file(path());
   if (!fs::exists(source_.path, ignored))
     fault = format("there is no file '{}' (-{}); {}", path(), source_.option, source_.cure);
   else if (H5Fis_hdf5(path().c_str()) <= 0)
     fault =
         format("'{}' (-{}) is not an HDF5 file or cannot be read; {}", path(), source_.option, source_.cure);
   throw_together(comm_, fault);
-  together([&] {
-    const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "preparing"));
-    hdf5(H5Pset_file_locking(access, 0, 1), "preparing");
-    file_ = Hdf5File(hdf5(H5Fopen(path().c_str(), H5F_ACC_RDONLY, access), "opening"));
-  });
+  together([&] { file_ = open_file(path()); });
 }
 
 void GridFile::together(const std::function<void()>& read) const {
@@ -111,12 +102,7 @@ void GridFile::refuse_unless(bool fine, const std::string& fault, const std::str
   throw_together(comm_, fine ? "" : format("'{}' (-{}) {}; {}", path(), source_.option, fault, cure));
 }
 
-bool GridFile::has(const std::string& dataset) const {
-  for (std::size_t end = dataset.find('/', 1);; end = dataset.find('/', end + 1)) {
-    if (H5Lexists(file_, dataset.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
-}
+bool GridFile::has(const std::string& dataset) const { return has_path(file_, dataset); }
 
 bool GridFile::has_attribute(const std::string& object, const std::string& attribute) const {
   return H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) > 0;

@@ -1,25 +1,16 @@
 #include "slipscale/files/hdf5.hpp"
 
-#include <mpi.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <utility>
 
+#include "journaled_driver.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
-#include "slipscale/files/disk_space.hpp"
-
-/// HDF5's own mark that it has begun; weak, because a version may do without it.
-extern "C" {
-extern bool H5_libinit_g __attribute__((weak));
-}
 
 namespace slipscale {
 namespace {
@@ -51,30 +42,60 @@ void keep_hdf5_messages() { (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 namespace {
 
-/// HDF5 cannot be ended in good order after it has failed to write the first bytes of a new file: their place
-/// is set aside before it sees the file.
-void make_place(const std::string& path) {
-  constexpr std::uint64_t first_bytes = 32768;
-  std::FILE* const file = std::fopen(path.c_str(), "w");
-  if (!file) throw LibraryError("cannot create the file: " + std::string(std::strerror(errno)));
-  (void)std::fclose(file);
-  try {
-    reserve_space(path, 0, first_bytes);
-  } catch (const LibraryError&) {
-    (void)std::remove(path.c_str());
-    throw;
-  }
+Hdf5Properties without_locking() {
+  Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
+  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
+  return access;
+}
+
+Hdf5Properties journaled() {
+  Hdf5Properties access = without_locking();
+  use_journaled_driver(access);
+  return access;
 }
 
 }  // namespace
 
+std::string partial_path(const std::string& path) { return path + ".partial"; }
+
 Hdf5File create_file(const std::string& path) {
-  make_place(path);
-  const Hdf5Properties access(hdf5(H5Pcreate(H5P_FILE_ACCESS), "cannot prepare the file"));
-  hdf5(H5Pset_file_locking(access, 0, 1), "cannot turn file locking off");
-  Hdf5File file(hdf5(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file"));
+  Hdf5File file(hdf5(H5Fcreate(partial_path(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, journaled()),
+                     "cannot create the file"));
   write_provenance(file);
   return file;
+}
+
+void publish_file(hid_t file, const std::string& path) {
+  (void)unlink(Journal::path(path).c_str());  // of an older one
+  if (std::rename(partial_path(path).c_str(), path.c_str()) != 0) throw LibraryError(std::strerror(errno));
+  if (JournaledFile* const found = journaled_file(file)) found->publish(path);
+}
+
+Hdf5File open_file(const std::string& path) {
+  return Hdf5File(hdf5(H5Fopen(path.c_str(), H5F_ACC_RDONLY, without_locking()), "opening"));
+}
+
+Hdf5File open_file_to_write(const std::string& path) {
+  return Hdf5File(hdf5(H5Fopen(path.c_str(), H5F_ACC_RDWR, journaled()), "opening"));
+}
+
+void recover_file(const std::string& path, bool to_write) { JournaledFile::recover(path, to_write); }
+
+void check_written(hid_t file, const std::string& what) {
+  const JournaledFile* const found = journaled_file(file);
+  if (found && !found->failure()->empty())
+    throw LibraryError((what.empty() ? "" : what + ": ") + *found->failure());
+}
+
+void abandon_file(hid_t file) {
+  if (JournaledFile* const found = journaled_file(file)) found->abandon();
+}
+
+void close_file(Hdf5File& file) {
+  const JournaledFile* const found = journaled_file(file);
+  const auto failure = found ? found->failure() : std::make_shared<const std::string>();
+  if (file.close() < 0) throw LibraryError(hdf5_message());
+  if (!failure->empty()) throw LibraryError(*failure);
 }
 
 void write_provenance(hid_t file) {
@@ -88,42 +109,6 @@ void write_provenance(hid_t file) {
 
 std::string checksum_text(std::uint64_t checksum) {
   return format("fnv1a:{:016x}", static_cast<unsigned long long>(checksum));
-}
-
-namespace {
-
-int forget_hdf5(MPI_Comm, int, void*, void*) {
-  if (&H5_libinit_g) H5_libinit_g = false;
-  return MPI_SUCCESS;
-}
-
-/// HDF5 1.10 ends with MPI, and crashes there over a file that it could not flush: it closes such a file
-/// twice. Attributes of MPI_COMM_SELF are deleted in the reverse order of their making (MPI 3.1,
-/// section 8.7.1), so that this one comes before HDF5's.
-void leave_hdf5_unended() {
-  static bool done = false;
-  int key = MPI_KEYVAL_INVALID;
-  if (std::exchange(done, true)) return;
-  MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, forget_hdf5, &key, nullptr);
-  MPI_Comm_set_attr(MPI_COMM_SELF, key, nullptr);
-}
-
-}  // namespace
-
-void cut_off(hid_t file) {
-  leave_hdf5_unended();
-  // A limit on the size of files would hold for what takes the file's place, too.
-  rlimit largest{};
-  if (getrlimit(RLIMIT_FSIZE, &largest) == 0) {
-    largest.rlim_cur = largest.rlim_max;
-    (void)setrlimit(RLIMIT_FSIZE, &largest);
-  }
-  void* handle = nullptr;
-  const int nowhere = memfd_create("slipscale", MFD_CLOEXEC);
-  if (nowhere < 0) return;
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle)
-    (void)dup2(nowhere, *static_cast<const int*>(handle));
-  (void)close(nowhere);
 }
 
 std::string hdf5_message() {
@@ -169,6 +154,45 @@ void write_attribute(hid_t object, const std::string& name, double value) {
 void write_attribute(hid_t object, const std::string& name, std::int64_t value) {
   const Hdf5Space scalar(hdf5(H5Screate(H5S_SCALAR), "cannot make a data space"));
   write_value(object, name, H5T_NATIVE_INT64, scalar, &value);
+}
+
+std::string attribute_text(hid_t object, const std::string& name) {
+  const std::string what = "the attribute '" + name + "'";
+  const Hdf5Attribute attribute(hdf5(H5Aopen(object, name.c_str(), H5P_DEFAULT), what));
+  const Hdf5Type type(hdf5(H5Aget_type(attribute), what));
+  const Hdf5Space space(hdf5(H5Aget_space(attribute), what));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
+      H5Sget_simple_extent_npoints(space) != 1)
+    throw LibraryError(what + " is not a text of fixed length");
+  std::string text(H5Tget_size(type), '\0');
+  hdf5(H5Aread(attribute, type, text.data()), what);
+  return text.substr(0, text.find('\0'));
+}
+
+bool has_path(hid_t file, const std::string& path) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> links_of(hid_t file, const std::string& group) {
+  std::vector<std::string> names;
+  const auto take = [](hid_t, const char* name, const H5L_info_t*, void* into) -> herr_t {
+    static_cast<std::vector<std::string>*>(into)->emplace_back(name);
+    return 0;
+  };
+  hdf5(
+      H5Literate_by_name(file, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names, H5P_DEFAULT),
+      group);
+  return names;
+}
+
+std::vector<hsize_t> shape_of(hid_t dataset, const std::string& what) {
+  const Hdf5Space space(hdf5(H5Dget_space(dataset), what));
+  std::vector<hsize_t> shape(static_cast<std::size_t>(hdf5(H5Sget_simple_extent_ndims(space), what)));
+  hdf5(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
+  return shape;
 }
 
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description) {

@@ -2,17 +2,24 @@
 
 #include <array>
 
+#include "slipscale/files/continued_file.hpp"
+
 namespace slipscale {
 namespace {
 
 using Topology = MeshImage::Topology;
 
-/// Returns the length of the stream when cells are mixed.
+/// The length of the stream when cells are mixed. Collective.
+hsize_t stream_length(MPI_Comm comm, hsize_t entries) {
+  MPI_Allreduce(MPI_IN_PLACE, &entries, 1, MPI_UINT64_T, MPI_SUM, comm);
+  return entries;
+}
+
 hsize_t write_cells(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
   const auto connectivity = image.connectivity();
-  hsize_t entries = connectivity.size(), before = 0, length = 0;
+  hsize_t entries = connectivity.size(), before = 0;
   MPI_Exscan(&entries, &before, 1, MPI_UINT64_T, MPI_SUM, comm);
-  MPI_Allreduce(&entries, &length, 1, MPI_UINT64_T, MPI_SUM, comm);
+  const hsize_t length = stream_length(comm, entries);
   const bool triangles = image.topology() == Topology::triangles;
   if (image.topology() == Topology::mixed)
     file.write({"/mesh/cells", "1",
@@ -41,6 +48,24 @@ MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image) {
   file.write({"/mesh/region", "1", "index into the attribute names"}, slice_of(image.cells(), {}),
              index_type(), image.regions().data(),
              [&](hid_t set) { write_attribute(set, "names", image.region_names()); });
+  return {image.topology(), image.points().total(), image.cells().total(), length};
+}
+
+MeshLayout check_mesh(MPI_Comm comm, const SharedFile& file, const MeshImage& image) {
+  const hsize_t length = stream_length(comm, image.connectivity().size());
+  const auto points = static_cast<hsize_t>(image.points().total()),
+             cells = static_cast<hsize_t>(image.cells().total());
+  const std::array box{image.block().lower, image.block().upper};
+  file.examine([&](hid_t data) {
+    if (image.checksum() != 0) expect_text(data, "mesh_checksum", checksum_text(image.checksum()));
+    expect_values(data, "/mesh/block", {2, 2}, "m", box.front().data());
+    (void)expect_dataset(data, "/mesh/coordinates", H5T_IEEE_F64LE, {points, 2}, "m");
+    const hsize_t corners = image.topology() == Topology::triangles ? 3 : 4;
+    const bool mixed = image.topology() == Topology::mixed;
+    (void)expect_dataset(data, "/mesh/cells", index_type(),
+                         mixed ? std::vector{length} : std::vector{cells, corners}, "1");
+    (void)expect_dataset(data, "/mesh/region", index_type(), {cells}, "1");
+  });
   return {image.topology(), image.points().total(), image.cells().total(), length};
 }
 

@@ -37,6 +37,9 @@ std::string prepare(const std::string& folder, const std::vector<std::string>& r
   }
   for (const std::string& file : replaced) {
     fs::remove(fs::path(folder) / file, error);
+    // What a run that was killed may have left beside it is in nobody's way if it cannot be removed.
+    std::error_code ignored;
+    for (const char* end : {".partial", ".journal"}) fs::remove(fs::path(folder) / (file + end), ignored);
     if (error)
       return complaint(folder, "holds a " + file + " that cannot be removed (" + error.message() + ")");
   }

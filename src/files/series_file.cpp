@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <numeric>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
@@ -45,22 +47,44 @@ std::vector<hsize_t> rows_of(hsize_t rows, const std::vector<hsize_t>& row_shape
 
 }  // namespace
 
-/// Runs `action` unless something failed before; its failure becomes the fault, and the file is cut off.
+/// Runs `action` unless something failed before; its failure becomes the fault, and nothing more is written.
 template <class Action>
 void SeriesFile::guarded(const char* what, Action action) {
-  if (!fault_.empty()) return;
+  if (!sound()) return;
   try {
     action();
   } catch (const std::exception& error) {
     fault_ = write_fault(path_, what + std::string(error.what()));
-    if (file_.open()) cut_off(file_);
+    if (file_.open()) abandon_file(file_);
   }
 }
 
-SeriesFile::SeriesFile(std::string path, double seconds, double expected_rows)
-    : path_(std::move(path)), seconds_(seconds), pause_(seconds), expected_rows_(expected_rows) {
+/// Runs what reads a file that is to be continued; its failure becomes the refusal.
+template <class Action>
+void SeriesFile::checked(Action action) {
+  if (!sound()) return;
+  try {
+    action();
+  } catch (const std::exception& error) {
+    refusal_ = continuation_fault(path_, error.what());
+  }
+}
+
+SeriesFile::SeriesFile(std::string path, double seconds, double expected_rows,
+                       std::optional<Continue> continued)
+    : path_(std::move(path)),
+      seconds_(seconds),
+      pause_(seconds),
+      expected_rows_(expected_rows),
+      continued_(continued) {
   keep_hdf5_messages();
-  guarded("", [&] { file_ = create_file(path_); });
+  if (!continued_) {
+    guarded("", [&] { file_ = create_file(path_); });
+    return;
+  }
+  rows_ = written_ = continued_->rows;
+  published_ = to_cut_ = true;
+  checked([&] { file_ = open_to_continue(path_); });
 }
 
 SeriesFile::~SeriesFile() { close(); }
@@ -71,7 +95,9 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
       std::accumulate(row_shape.begin(), row_shape.end(), hsize_t{1}, std::multiplies<>());
   Column column{path, row_shape, storage, entries * (storage == Storage::byte ? 1 : sizeof(double)),
                 0,    {},        {}};
+  if (continued_) checked([&] { open_column(column, units); });
   guarded("", [&] {
+    if (continued_) return;
     if (rows_ > 0) throw LibraryError("'" + path + "' was declared after the first row");
     const hsize_t rows_per_chunk = rows_in_chunk(expected_rows_, column.bytes);
     column.chunk = rows_per_chunk * column.bytes;
@@ -84,14 +110,29 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
   return static_cast<int>(columns_.size()) - 1;
 }
 
+void SeriesFile::open_column(Column& column, const std::string& units) {
+  column.dataset =
+      expect_series(file_, column.path, file_type(column.storage), column.row_shape, continued_->rows, units);
+  const Hdf5Properties creation(hdf5(H5Dget_create_plist(column.dataset), column.path));
+  hsize_t rows_per_chunk = 0;
+  hdf5(H5Pget_chunk(creation, 1, &rows_per_chunk), column.path);
+  column.chunk = rows_per_chunk * column.bytes;
+}
+
 void SeriesFile::constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
                           const std::string& units, const std::string& description) {
   const auto count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
-  constants_.push_back({path, shape, units, description, {values, values + count}});
+  if (!continued_)
+    constants_.push_back({path, shape, units, description, {values, values + count}});
+  else
+    checked([&] { expect_values(file_, path, shape, units, values); });
 }
 
 void SeriesFile::about(const std::string& name, const std::string& text) {
-  guarded("", [&] { write_attribute(file_, name, text); });
+  if (continued_)
+    checked([&] { expect_text(file_, name, text); });
+  else
+    guarded("", [&] { write_attribute(file_, name, text); });
 }
 
 void SeriesFile::write_constants() {
@@ -108,7 +149,7 @@ void SeriesFile::append(int id, const double* row) { append_bytes(id, row, Stora
 void SeriesFile::append(int id, const std::uint8_t* row) { append_bytes(id, row, Storage::byte); }
 
 void SeriesFile::append_bytes(int id, const void* row, Storage storage) {
-  if (!fault_.empty()) return;
+  if (!sound()) return;
   Column& column = columns_[static_cast<std::size_t>(id)];
   if (column.storage != storage)
     fault_ = path_ + ": a row of '" + column.path + "' has the wrong number type";
@@ -117,7 +158,7 @@ void SeriesFile::append_bytes(int id, const void* row, Storage storage) {
 }
 
 void SeriesFile::end_row() {
-  if (!fault_.empty()) return;
+  if (!sound()) return;
   ++rows_;
   const hsize_t waiting = rows_ - written_;
   for (const Column& column : columns_)
@@ -131,18 +172,28 @@ void SeriesFile::end_row() {
 void SeriesFile::flush() {
   const auto start = Clock::now();
   guarded("", [&] {
-    if (!file_.open() || (rows_ == written_ && constants_.empty())) return;
+    if (!file_.open() || (rows_ == written_ && constants_.empty() && !to_cut_)) return;
+    cut_back();
     hsize_t rows = rows_ - written_;
     const std::string full = reserve_for(rows);
     write_constants();
     for (Column& column : columns_) write_batch(column, rows);
-    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
+    flush_file();
     written_ += rows;
-    flushed_ = true;
     if (!full.empty()) throw LibraryError(full);
   });
   pause_ = std::max(seconds_, seconds_since(start) / writing_share);
   last_ = Clock::now();
+}
+
+/// Of a continued file, the rows behind those that count.
+void SeriesFile::cut_back() {
+  if (!to_cut_) return;
+  for (const Column& column : columns_)
+    hdf5(H5Dset_extent(column.dataset, rows_of(written_, column.row_shape).data()), column.path);
+  flush_file();  // what comes next may use the room of what was cut off
+  let_data_through(file_);
+  to_cut_ = false;
 }
 
 /// Sets room aside for `rows` rows, or for as many as a full disk takes: half, a quarter, … The reason why
@@ -168,7 +219,7 @@ void SeriesFile::reserve(hsize_t rows) {
     bytes += rows * column.bytes + column.chunk + column.bytes + index_bytes;
   if (written_ == 0) bytes += header_bytes * columns_.size();
   for (const Constant& each : constants_) bytes += constant_bytes + sizeof(double) * each.values.size();
-  reserve_space(path_, size, bytes);
+  room_.reach(published_ ? path_ : partial_path(path_), size, bytes);
 }
 
 void SeriesFile::write_batch(Column& column, hsize_t rows) {
@@ -187,24 +238,51 @@ void SeriesFile::write_batch(Column& column, hsize_t rows) {
   column.batch.clear();
 }
 
+void SeriesFile::flush_file() {
+  hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
+  check_written(file_);
+  if (!published_) publish_file(file_, path_);
+  published_ = true;
+}
+
 void SeriesFile::close() {
   if (!file_.open()) return;
   flush();
-  hsize_t size = 0;
   guarded("closing: ", [&] {
     for (Column& column : columns_)
       if (column.dataset.close() < 0) throw LibraryError(hdf5_message());
-    hdf5(H5Fflush(file_, H5F_SCOPE_LOCAL), "flushing");
-    hdf5(H5Fget_filesize(file_, &size), "size");
-    flushed_ = true;
+    flush_file();
   });
   columns_.clear();
-  const bool closed = file_.close() >= 0;
-  if (!flushed_) (void)std::remove(path_.c_str());  // not a file that anybody could read
-  guarded("closing: ", [&] {
-    if (!closed) throw LibraryError(hdf5_message());
-    give_back_space(path_, size);
-  });
+  guarded("closing: ", [&] { close_file(file_); });
+  (void)file_.close();
+  if (!published_) (void)std::remove(partial_path(path_).c_str());  // not a file that anybody could read
+}
+
+std::vector<double> SeriesFile::read(int id) {
+  const Column& column = columns_[static_cast<std::size_t>(id)];
+  std::vector<double> values(written_ * column.bytes / sizeof(double));
+  const auto from_disk = [&] {
+    if (written_ == 0) return;
+    const std::string& what = column.path;
+    const auto count = rows_of(written_, column.row_shape);
+    const Hdf5Space source(hdf5(H5Dget_space(column.dataset), what));
+    const std::vector<hsize_t> start(count.size(), 0);
+    hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), what);
+    const Hdf5Space target(
+        hdf5(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), what));
+    hdf5(H5Dread(column.dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), what);
+  };
+  if (continued_)
+    checked(from_disk);
+  else
+    guarded("reading: ", from_disk);
+  if (!sound()) return {};
+  const std::size_t waiting = column.batch.size() / sizeof(double);
+  values.resize(values.size() + waiting);
+  if (waiting > 0)
+    std::memcpy(values.data() + values.size() - waiting, column.batch.data(), column.batch.size());
+  return values;
 }
 
 double SeriesFile::bytes(double rows) const {

@@ -10,6 +10,7 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/collect_rows.hpp"
+#include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/disk_space.hpp"
 
 namespace slipscale {
@@ -86,9 +87,11 @@ hid_t index_type() { return sizeof(PetscInt) == 8 ? H5T_NATIVE_INT64 : H5T_NATIV
 SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance)
     : comm_(comm), root_(is_root(comm)), path_(path), appearance_(appearance) {
   keep_hdf5_messages();
+  published_ = appearance_ == Appearance::continued;
+  if (published_) examine([&](hid_t) { file_ = open_to_continue(path_); });
   write_together(comm_, path_, [&] {
     if (!root_) return;
-    file_ = create_file(name());
+    if (!file_.open()) file_ = create_file(path_);
     forget_soon(file_);
   });
   try {
@@ -99,13 +102,35 @@ SharedFile::SharedFile(MPI_Comm comm, const std::string& path, double bytes, App
   }
 }
 
-SharedFile::~SharedFile() {
-  if (!finished_ && appearance_ == Appearance::whole) discard();
+void SharedFile::examine(const std::function<void(hid_t file)>& look) const {
+  std::string fault;
+  try {
+    if (root_) look(file_);
+  } catch (const LibraryError& error) {
+    fault = continuation_fault(path_, error.what());
+  }
+  throw_together(comm_, fault);
 }
 
+void SharedFile::change(const std::function<void(hid_t file)>& action) {
+  on_root([&] { action(file_); });
+}
+
+void SharedFile::end_changes() {
+  flush();
+  on_root([&] { let_data_through(file_); });
+}
+
+SharedFile::~SharedFile() {
+  if (!finished_) discard();
+}
+
+/// What was not flushed, or all where nobody knows the file yet.
 void SharedFile::discard() {
+  if (!root_) return;
+  if (file_.open()) abandon_file(file_);
   (void)file_.close();
-  if (root_) (void)std::remove(name().c_str());
+  if (!published_) (void)std::remove(name().c_str());
 }
 
 void SharedFile::on_root(const std::function<void()>& action) {
@@ -114,8 +139,9 @@ void SharedFile::on_root(const std::function<void()>& action) {
     if (!file_.open()) throw LibraryError("an earlier write failed");
     try {
       action();
+      if (file_.open()) check_written(file_);
     } catch (const LibraryError&) {
-      cut_off(file_);
+      if (file_.open()) abandon_file(file_);
       (void)file_.close();
       throw;
     }
@@ -137,6 +163,7 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
                  if (!fault.empty()) return;
                  try {
                    write_rows(dataset, slice.shape, begin, count, type, piece, about.path);
+                   check_written(file_, about.path);
                  } catch (const LibraryError& error) {
                    fault = error.what();
                  }
@@ -164,15 +191,34 @@ void SharedFile::add_series(const DatasetDescription& about) {
 void SharedFile::append(const std::string& series, double value) {
   on_root([&] {
     Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
-    hsize_t length = 0;
-    {
-      const Hdf5Space space(hdf5(H5Dget_space(dataset), series));
-      hdf5(H5Sget_simple_extent_dims(space, &length, nullptr), series);
-    }
+    const hsize_t length = shape_of(dataset, series)[0];
     const hsize_t longer = length + 1;
     hdf5(H5Dset_extent(dataset, &longer), series);
     write_rows(dataset, {longer}, length, 1, H5T_NATIVE_DOUBLE, &value, series);
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
+  });
+}
+
+std::vector<double> SharedFile::read_series(const DatasetDescription& about, std::size_t count) const {
+  std::vector<double> values(count);
+  examine([&](hid_t file) {
+    const Hdf5Dataset series = expect_series(file, about.path, H5T_IEEE_F64LE, {}, count, about.units);
+    if (count == 0) return;
+    const hsize_t start = 0, rows = count;
+    const Hdf5Space source(hdf5(H5Dget_space(series), about.path)),
+        target(hdf5(H5Screate_simple(1, &rows, nullptr), about.path));
+    hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, &start, nullptr, &rows, nullptr), about.path);
+    hdf5(H5Dread(series, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), about.path);
+  });
+  MPI_Bcast(values.data(), static_cast<int>(count), MPI_DOUBLE, 0, comm_);
+  return values;
+}
+
+void SharedFile::cut_series(const std::string& series, std::size_t count) {
+  on_root([&] {
+    const Hdf5Dataset dataset(hdf5(H5Dopen2(file_, series.c_str(), H5P_DEFAULT), series));
+    const hsize_t rows = count;
+    hdf5(H5Dset_extent(dataset, &rows), series);
   });
 }
 
@@ -222,18 +268,23 @@ void SharedFile::reserve(double bytes) {
 }
 
 void SharedFile::flush() {
-  on_root([&] { hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing"); });
+  on_root([&] {
+    hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
+    check_written(file_);
+    if (!published_ && appearance_ == Appearance::growing) publish();
+  });
+}
+
+void SharedFile::publish() {
+  publish_file(file_, path_);
+  published_ = true;
 }
 
 void SharedFile::finish() {
+  flush();
   on_root([&] {
-    hdf5(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
-    hsize_t size = 0;
-    hdf5(H5Fget_filesize(file_, &size), "size");
-    if (file_.close() < 0) throw LibraryError(hdf5_message());
-    give_back_space(name(), size);
-    if (appearance_ == Appearance::whole && std::rename(name().c_str(), path_.c_str()) != 0)
-      throw LibraryError(std::strerror(errno));
+    close_file(file_);
+    if (!published_) publish();
   });
   finished_ = true;
 }

@@ -50,7 +50,7 @@ void load(const MeshSource& source, Whole& whole) {
   if (file.mesh.is_of_higher_order)
     whole.notes.emplace_back("cells of higher order are taken as straight ones between their corners");
   note_turned(turn_clockwise_surfaces(file.mesh), whole.notes);
-  for (std::string& note : whole.notes) note = "note: mesh '" + source.file + "': " + note;
+  for (std::string& note : whole.notes) note = "mesh '" + source.file + "': " + note;
   Periods periods;
   if (file.mesh.is_periodic && !source.cut) periods = periods_of(file.mesh);
   whole.plain = plain_mesh(file.mesh, periods.original, whole.regions, whole.boundaries);

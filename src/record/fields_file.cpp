@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/xdmf.hpp"
 #include "slipscale/record/stress_measures.hpp"
 
@@ -25,6 +26,13 @@ std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities, bool wi
     if (quantities.principal) shown.push_back({value, cell, value, {}});
   shown.push_back(xdmf_region());
   return shown;
+}
+
+/// The frame's path without the '/' at its end.
+std::string group_of(std::size_t frame) {
+  std::string path = frame_path(frame);
+  path.pop_back();
+  return path;
 }
 
 }  // namespace
@@ -54,22 +62,86 @@ FieldsFile::FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folde
     : FieldsFile(comm, MeshImage(comm, mesh), folder, quantities) {}
 
 FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
-                       const std::string& name, std::vector<double> transverse)
+                       const std::string& name, std::vector<double> transverse,
+                       std::optional<std::size_t> frames)
     : comm_(comm),
       quantities_(quantities),
       image_(std::move(image)),
       transverse_(std::move(transverse)),
-      file_(std::make_unique<SharedFile>(comm, folder + "/" + name + ".h5", bytes(0),
-                                         SharedFile::Appearance::growing)),
-      xdmf_path_(folder + "/" + name + ".xdmf") {
-  const MeshLayout layout = write_mesh(comm, *file_, image_);
-  file_->add_series({"/time", "s", "times of the frames"});
-  file_->flush();
+      file_(std::make_unique<SharedFile>(
+          comm, folder + "/" + name + ".h5", bytes(0),
+          frames ? SharedFile::Appearance::continued : SharedFile::Appearance::growing)),
+      xdmf_path_(folder + "/" + name + ".xdmf"),
+      to_cut_(frames.has_value()) {
+  const DatasetDescription time{"/time", "s", "times of the frames"};
+  const MeshLayout layout = frames ? check_mesh(comm, *file_, image_) : write_mesh(comm, *file_, image_);
+  std::vector<double> times;
+  if (frames) {
+    times = file_->read_series(time, *frames);
+    check_frames(*frames);
+  } else {
+    file_->add_series(time);
+    file_->flush();
+  }
   xdmf_ = std::make_unique<XdmfDocument>(XdmfDocument{
-      name + ".h5", "block", layout, attributes(quantities, !transverse_.empty()), std::vector<double>{}});
+      name + ".h5", "block", layout, attributes(quantities, !transverse_.empty()), std::move(times)});
 }
 
 FieldsFile::~FieldsFile() = default;
+
+/// Refuses a file that lacks frames, or whose frames do not hold what this one would write.
+void FieldsFile::check_frames(std::size_t frames) const {
+  file_->examine([&](hid_t file) {
+    if (frames == 0) return;
+    for (std::size_t frame = 0; frame < frames; ++frame)
+      if (!has_path(file, group_of(frame))) throw LibraryError("it has no '" + group_of(frame) + "'");
+    for (const std::size_t frame : {std::size_t{0}, frames - 1}) check_frame(file, group_of(frame));
+  });
+}
+
+void FieldsFile::check_frame(hid_t file, const std::string& group) const {
+  const auto points = static_cast<hsize_t>(image_.points().total()),
+             cells = static_cast<hsize_t>(image_.cells().total());
+  const bool with_zz = !transverse_.empty();
+  std::size_t expected = 0;
+  const auto expect = [&](bool chosen, const std::string& name, const std::vector<hsize_t>& shape,
+                          const std::string& units) {
+    if (!chosen) return;
+    (void)expect_dataset(file, group + "/" + name, H5T_IEEE_F64LE, shape, units);
+    ++expected;
+  };
+  expect(quantities_.u, "u", {points, 3}, "m");
+  expect(quantities_.v, "v", {points, 3}, "m/s");
+  expect(quantities_.stress, "stress", {cells, 3}, "Pa");
+  expect(quantities_.stress, "stress_tensor", {cells, 3, 3}, "Pa");
+  expect(quantities_.stress && with_zz, "stress_zz", {cells}, "Pa");
+  expect(quantities_.strain, "strain", {cells, 3}, "1");
+  for (const char* part : {"strain_xx", "strain_yy", "strain_xy"})
+    expect(quantities_.strain, part, {cells}, "1");
+  expect(quantities_.von_mises && with_zz, "von_mises", {cells}, "Pa");
+  for (const char* value : {"principal_high", "principal_low"})
+    expect(quantities_.principal, value, {cells}, "Pa");
+  if (links_of(file, group).size() != expected) throw LibraryError("'" + group + "' holds other quantities");
+}
+
+/// Of a continued file, the frames behind those that count.
+void FieldsFile::cut_back() {
+  if (!to_cut_) return;
+  // First, so that it never names a frame that is not there.
+  write_xdmf(comm_, xdmf_path_, *xdmf_);
+  file_->cut_series("/time", frames());
+  file_->change([&](hid_t file) {
+    if (!has_path(file, "/frames")) return;
+    const auto order = [](const std::string& name) { return std::pair(name.size(), name); };
+    for (const std::string& name : links_of(file, "/frames"))
+      if (const std::string group = "/frames/" + name; order(group) >= order(group_of(frames())))
+        hdf5(H5Ldelete(file, group.c_str(), H5P_DEFAULT), group);
+  });
+  file_->end_changes();
+  to_cut_ = false;
+}
+
+std::size_t FieldsFile::frames() const { return xdmf_->times->size(); }
 
 double FieldsFile::bytes(double frames) const {
   return fields_bytes(frames, image_.points().total(), image_.cells().total(), quantities_);
@@ -77,7 +149,8 @@ double FieldsFile::bytes(double frames) const {
 
 void FieldsFile::write(double time, const double* u, const double* v, const double* stress,
                        const double* strain) {
-  const std::string frame = frame_path(xdmf_->times->size());
+  cut_back();
+  const std::string frame = frame_path(frames());
   file_->reserve(bytes(1));
   if (quantities_.u) write_nodal({frame + "u", "m", "displacement of the points; x, y and 0"}, u);
   if (quantities_.v) write_nodal({frame + "v", "m/s", "velocity of the points; x, y and 0"}, v);
@@ -143,7 +216,10 @@ void FieldsFile::write_on_cells(const DatasetDescription& about, const double* v
   });
 }
 
-void FieldsFile::close() { file_->finish(); }
+void FieldsFile::close() {
+  cut_back();
+  file_->finish();
+}
 
 double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
                     const FieldQuantities& quantities) {

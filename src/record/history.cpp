@@ -1,5 +1,8 @@
 #include "slipscale/record/history.hpp"
 
+#include <limits>
+#include <map>
+
 namespace slipscale {
 namespace {
 
@@ -8,8 +11,8 @@ constexpr double between_batches = 0.5;  // s
 }  // namespace
 
 HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-                         double rows)
-    : file_(path, between_batches, rows) {
+                         bool momentum, double rows, std::optional<SeriesFile::Continue> continued)
+    : file_(path, between_batches, rows, continued) {
   time_ = file_.add("/time", {}, "s", "time of the row, t_n = n times the step");
   step_ = file_.add("/step", {}, "1", "number of the step, n");
   for (const std::string& name : body.boundary_names()) {
@@ -34,6 +37,7 @@ HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const
                   file_.add("/contact/open", {}, "1", "part of it that is open")};
   }
   add_energy();
+  if (momentum) add_momentum(body);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::string group = "/points/" + std::to_string(k) + "/";
     file_.constant(group + "x", points[k].data(), {2}, "m", "where the point is in the undeformed body");
@@ -48,23 +52,52 @@ void HistoryFile::add_energy() {
     energy_.push_back(file_.add(std::string("/energy/") + term.name, {}, "J/m", term.description));
 }
 
-void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
-  file_.append(time_, seen.time);
-  file_.append(step_, static_cast<double>(seen.step));
+void HistoryFile::add_momentum(const SlidingBody& body) {
+  momentum_ = {
+      file_.add("/momentum/linear", {2}, "kg/s", "momentum of the body along x and y, without plates"),
+      file_.add("/momentum/angular", {}, "kg m/s",
+                "angular momentum of the body about the middle of the block, counter-clockwise")};
+  for (const auto& side : body.straight_sides()) {
+    const std::string group = "/plate/" + side->boundary() + "/";
+    const auto add = [&](const std::string& name, const std::string& units, const std::string& description) {
+      plates_.push_back(file_.add(group + name, {}, units, description));
+    };
+    add("displacement", "m", "of the plate's middle along y");
+    add("tilt", "rad", "of the plate, counter-clockwise");
+    add("velocity", "m/s", "of its middle along y");
+    add("tilt_rate", "rad/s", "of the plate, counter-clockwise");
+    add("momentum", "kg/s", "of the plate's own mass along y");
+    add("angular_momentum", "kg m/s", "of its own mass about its middle, counter-clockwise");
+  }
+}
+
+/// Calls `visit(id of the quantity, its place in the observation)` for all that is a real number: what is
+/// written and what is read back is the same.
+template <class Seen, class Visit>
+void HistoryFile::visit_numbers(Seen& seen, Visit visit) const {
+  visit(time_, seen.time);
   for (std::size_t b = 0; b < seen.boundaries.size(); ++b) {
-    file_.append(boundary_[2 * b], seen.boundaries[b].normal);
-    file_.append(boundary_[2 * b + 1], seen.boundaries[b].tangential);
+    visit(boundary_[2 * b], seen.boundaries[b].normal);
+    visit(boundary_[2 * b + 1], seen.boundaries[b].tangential);
   }
-  if (friction_ >= 0) file_.append(friction_, seen.friction);
+  if (friction_ >= 0) visit(friction_, seen.friction);
   if (!surface_.empty()) {
-    const double values[] = {seen.surface.normal, seen.surface.tangential, seen.drive_power,
-                             seen.power_into_body, seen.friction_heat};
-    for (std::size_t k = 0; k < surface_.size(); ++k) file_.append(surface_[k], values[k]);
-    const double fractions[] = {seen.stick, seen.slip, seen.open};
-    for (std::size_t k = 0; k < fractions_.size(); ++k) file_.append(fractions_[k], fractions[k]);
+    visit(surface_[0], seen.surface.normal);
+    visit(surface_[1], seen.surface.tangential);
+    visit(surface_[2], seen.drive_power);
+    visit(surface_[3], seen.power_into_body);
+    visit(surface_[4], seen.friction_heat);
+    visit(fractions_[0], seen.stick);
+    visit(fractions_[1], seen.slip);
+    visit(fractions_[2], seen.open);
   }
-  for (std::size_t k = 0; k < energy_.size(); ++k)
-    file_.append(energy_[k], seen.energy.*energy_terms[k].value);
+  for (std::size_t k = 0; k < energy_.size(); ++k) visit(energy_[k], seen.energy.*energy_terms[k].value);
+}
+
+void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
+  visit_numbers(seen, [&](int id, double value) { file_.append(id, value); });
+  file_.append(step_, static_cast<double>(seen.step));
+  write_momentum(seen);
   for (std::size_t p = 0; p < probes.size(); ++p) {
     file_.append(points_[3 * p], probes[p].u.data());
     file_.append(points_[3 * p + 1], probes[p].v.data());
@@ -73,8 +106,35 @@ void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>
   file_.end_row();
 }
 
-ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows)
-    : file_(path, between_batches, rows), length_(observer.tributary_length()) {
+std::vector<Observation> HistoryFile::rows_so_far() {
+  Observation row;
+  row.boundaries.resize(boundary_.size() / 2);
+  row.friction = std::numeric_limits<double>::quiet_NaN();
+  std::map<int, std::vector<double>> columns{{step_, file_.read(step_)}};
+  visit_numbers(row, [&](int id, double&) { columns[id] = file_.read(id); });
+  std::vector<Observation> rows;
+  if (!file_.fault().empty() || !file_.refusal().empty()) return rows;
+  for (std::size_t k = 0; k < file_.rows(); ++k) {
+    visit_numbers(row, [&](int id, double& value) { value = columns[id][k]; });
+    row.step = static_cast<long>(columns[step_][k]);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void HistoryFile::write_momentum(const Observation& seen) {
+  if (momentum_.empty()) return;
+  file_.append(momentum_[0], seen.momentum.linear.data());
+  file_.append(momentum_[1], seen.momentum.angular);
+  auto column = plates_.begin();
+  for (const PlateReading& plate : seen.plates)
+    for (const PlateMotion& pair : {plate.moved, plate.velocity, plate.momentum})
+      for (const double value : pair) file_.append(*column++, value);
+}
+
+ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows,
+                         std::optional<SeriesFile::Continue> continued)
+    : file_(path, between_batches, rows, continued), length_(observer.tributary_length()) {
   const hsize_t nodes = observer.contact_x().size();
   file_.constant("/x", observer.contact_x().data(), {nodes}, "m",
                  "where the contact nodes are in the undeformed body");

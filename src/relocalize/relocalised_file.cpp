@@ -32,12 +32,10 @@ struct RelocalisedFile::File {
         folder(where),
         bytes(frame_bytes(grid)),
         data(on, where + "/" + data_file,
-             mesh_bytes(static_cast<double>(grid.points.size()), grid.cells()) + bytes,
-             SharedFile::Appearance::growing),
+             mesh_bytes(static_cast<double>(grid.points.size()), grid.cells()) + bytes),
         image(on, grid, mine.begin, mine.end),
         layout(write_mesh(on, data, image)) {
     data.add_series({"/time", "s", "times of the frames"});
-    data.flush();
   }
 
   void add(const std::string& name, const char* units, const std::string& text,
@@ -94,14 +92,13 @@ void RelocalisedFile::write(double time, std::span<const PlaneTensor> stress,
   file_->add("strain", "1", "relocalised strain of the cells, engineering shear", strain);
   file_->add("homogeneous_stress", "Pa", "stress of the homogeneous run at the cells", homogeneous_stress);
   file_->data.append("/time", time);
-  file_->data.flush();
   file_->times.push_back(time);
-  write_xdmf(file_->comm, file_->folder + "/relocalized.xdmf", file_->document());
 }
 
 void RelocalisedFile::close(const std::vector<LocalHistory>& histories) {
   for (std::size_t k = 0; k < histories.size(); ++k) file_->add(k, histories[k]);
   file_->data.finish();
+  write_xdmf(file_->comm, file_->folder + "/relocalized.xdmf", file_->document());
 }
 
 }  // namespace slipscale

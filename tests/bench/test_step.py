@@ -1,5 +1,5 @@
-"""bench_step on a small mesh: it runs to its end, and every figure it prints is one. What crashes after its last line has
-not passed."""
+"""bench_step on a small mesh: it runs to its end, and every figure it prints is one. What crashes after its last line
+has not passed."""
 
 import os
 import re

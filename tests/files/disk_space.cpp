@@ -1,7 +1,6 @@
 #include "slipscale/files/disk_space.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
@@ -69,16 +68,41 @@ TEST(FillWithZeros, LeavesTheFileAsItWasOnAFullDisk) {
   EXPECT_FALSE(failure_of<LibraryError>([&] { fill_with_zeros("/dev/full", 10); }).empty());
 }
 
-/// HDF5 must not see such a file: after it has failed to write the first bytes it crashes at the end.
-TEST(NewFile, LeavesNothingWhereItsFirstBytesHaveNoRoom) {
+/// HDF5, which crashes at the end after it has failed to write the first bytes, must not see that.
+TEST(NewFile, OnAFullDiskTellsWhoAsks) {
   const std::string path = scratch("no-room.h5");
-  rlimit whole{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &whole), 0);
-  rlimit small = whole;
-  small.rlim_cur = 1000;
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW(create_file(path), LibraryError);
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &whole), 0);
+  {
+    const read_back::SmallDisk disk(100);
+    Hdf5File file = create_file(path);
+    EXPECT_GE(H5Fflush(file, H5F_SCOPE_LOCAL), 0);
+    EXPECT_EQ(failure_of<LibraryError>([&] { check_written(file, "flushing"); }), "flushing: File too large");
+    EXPECT_EQ(failure_of<LibraryError>([&] { close_file(file); }), "File too large");
+    EXPECT_FALSE(file.open());
+  }
   EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_NO_THROW(create_file(path));
+}
+
+TEST(SyncFile, SaysWhatIsInTheWay) {
+  const std::string path = file_with("synced", "data");
+  sync_file(path);
+  EXPECT_EQ(text_of(path), "data");
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(std::filesystem::path(path).parent_path());
+  sync_file(std::filesystem::path(path).filename());
+  std::filesystem::current_path(here);
+  EXPECT_EQ(failure_of<LibraryError>([&] { sync_file(path + ".none"); }), "No such file or directory");
+}
+
+TEST(Reservation, GoesAheadWhereTheDiskHasRoomAndNoticesARemovedFile) {
+  const std::string path = file_with("ahead", "data");
+  {
+    const read_back::SmallDisk disk(100000);
+    Reservation room;
+    room.reach(path, 4, 60000);  // twice that is more than there is
+    EXPECT_EQ(failure_of<LibraryError>([&] { room.reach(path, 50000, 60000); }), "File too large");
+  }
+  Reservation room;
+  room.reach(path, 4, 60000);
+  std::filesystem::remove(path);
+  EXPECT_EQ(failure_of<LibraryError>([&] { room.reach(path, 10000, 60000); }), "No such file or directory");
 }

@@ -7,12 +7,20 @@
 
 namespace slipscale {
 
-/// Sums over the owned nodes that the energy ledger needs when the bulk dissipates.
-struct BulkSums {
-  double increment_force = 0;    ///< Δuᵀ K Δu of the step just closed, J/m
-  double increment_inertia = 0;  ///< Δaᵀ M Δa of the step just closed, N²/kg/m
-  double damping_past = 0;       ///< damping force at t_n times u_n − u_{n−1}, J/m
-  double damping_next = 0;       ///< damping force at t_n times u_{n+1} − u_n, J/m
+/// What owned nodes have lost so far where the bulk dissipates, along x and y, J/m; null where the physics
+/// does not lose it. By node, so that no sum depends on the number of ranks.
+struct BulkLosses {
+  Vector2* damping = nullptr;  ///< to bulk damping; of the coming step already the part 1 − β2
+  Vector2* coming = nullptr;   ///< that part; kept by steps that keep the acceleration
+  Vector2* scheme = nullptr;   ///< to the time scheme, β2 > ½
+};
+
+/// How a step counts in them.
+struct LossWeights {
+  double past = 0;     ///< of the damping force's work along the step before, β2; 0 in the first step
+  double next = 0;     ///< of its work along the coming step, 1 − β2
+  double force = 0;    ///< of Δuᵀ K Δu of the step just closed, β2 − ½; 0 in the first step
+  double inertia = 0;  ///< of Δaᵀ M Δa of that step, −(β2 − ½) β2 Δt²/2, s²; 0 in the first step
 };
 
 /// What the free motion of a node needs; arrays by local node.
@@ -40,34 +48,31 @@ struct FreeMotionState {
   Lanes gravity;
   double lag;           ///< stiffness damping over the step
   double mass_damping;  ///< 1/s
-  // As `BulkSums`, along x and along y; each taken node after node, so that it does not depend on how many
-  // nodes are moved at a time.
-  Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
+  BulkLosses losses;
+  LossWeights weights;
 };
 
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
-/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete;
-/// several nodes are moved at a time, to the same bits.
+/// velocity, displacement; and the losses of the bulk. Called for every run of owned nodes as soon as their
+/// internal force is complete; several nodes are moved at a time, to the same bits.
 class FreeMotion {
  public:
   FreeMotion(const BulkPhysics& physics, Instructions instructions, const BulkArrays& arrays,
-             const StepCoefficients& step, const Damping& damping, const Vector2& gravity)
-      : move_(moving(physics, instructions)),
-        state_{arrays, step, load(gravity), damping.stiffness / step.time_step, damping.mass} {}
+             const StepCoefficients& step, const Damping& damping, const Vector2& gravity,
+             const BulkLosses& losses, const LossWeights& weights)
+      : move_(moving(physics, instructions)), state_{arrays,        step,
+                                                     load(gravity), damping.stiffness / step.time_step,
+                                                     damping.mass,  losses,
+                                                     weights} {}
 
-  void operator()(int begin, int end) { move_(state_, begin, end); }
-  BulkSums sums() const {
-    const auto both = [](const Lanes& lanes) { return lanes[0] + lanes[1]; };
-    return {both(state_.increment_force), both(state_.increment_inertia), both(state_.damping_past),
-            both(state_.damping_next)};
-  }
+  void operator()(int begin, int end) const { move_(state_, begin, end); }
 
  private:
-  using Move = void (*)(FreeMotionState&, int begin, int end);
+  using Move = void (*)(const FreeMotionState&, int begin, int end);
   static Move moving(const BulkPhysics& physics, Instructions instructions);
 
-  Move move_;
-  FreeMotionState state_;
+  const Move move_;
+  const FreeMotionState state_;
 };
 
 }  // namespace slipscale

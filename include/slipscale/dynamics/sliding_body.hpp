@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/ledger.hpp"
@@ -65,10 +68,17 @@ class SlidingBody {
 
   const StraightSides& straight_sides() const { return *straight_; }  ///< at t_n
 
-  /// The energy balance at t_n of an observed step, summed over the ranks. Collective.
+  /// The energy balance at t_n of an observed step, the same bits on any number of ranks. Collective.
   Energy energy() const;
-  /// Mass and momenta at t_n of an observed step, without plates, summed over the ranks. Collective.
+  /// Mass and momenta at t_n of an observed step, without plates; the same bits on any number of ranks.
+  /// Collective.
   Momentum momentum() const;
+  /// Everything that the steps so far left behind, for a checkpoint to keep: the arrays are the body's own.
+  /// When those of a body made anew are filled in and `resume` is called, it goes on with the same bits.
+  /// Collective.
+  std::vector<StateGroup> state();
+  void resume();
+
   /// Whether any contact node was closed at any step so far. Collective.
   bool has_touched() const;
 
@@ -81,7 +91,10 @@ class SlidingBody {
 
   void start_force();
   void set_contact_nodes();
-  Energy local_energy() const;  ///< this rank's terms; no residual, flowed kinetic only
+  double gravity_work(int node, const Vector2& displacement) const;
+  using BulkTerms = std::array<std::span<const double>, 4>;
+  BulkTerms bulk_terms() const;
+  std::int64_t largest_count() const;
   NodalState state(bool with_acceleration) const;
 
   MPI_Comm comm_;
@@ -100,12 +113,16 @@ class SlidingBody {
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
-  BulkSums bulk_;
   EnergyLedger ledger_;
-  double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m
-  double start_energy_ = 0;   ///< Ê at t = 0 of this rank, J/m
+  double start_gravity_ = 0;           ///< Σ m g·u_0 of all ranks, J/m
+  double start_energy_ = 0;            ///< Ê at t = 0 of all ranks, J/m
+  mutable std::vector<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
   long step_ = 0;
+  /// The run as a whole, for a checkpoint.
+  struct Carried {
+    double steps, surface_travel, start_gravity, start_energy, touched;
+  } carried_{};
 };
 
 }  // namespace slipscale

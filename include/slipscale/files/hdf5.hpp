@@ -44,10 +44,34 @@ using Hdf5Attribute = Hdf5Handle<H5Aclose>;
 /// Stops HDF5 from printing its error stack; `hdf5` reports instead. Cheap, may be repeated.
 void keep_hdf5_messages();
 
-/// A new file, over an older one. A killed run must leave a readable file, and a running one must let readers
-/// in: the oldest format (files written with the latest were unreadable after a kill), no file locking,
-/// serial driver. It says at once where it comes from (`write_provenance`).
+/// Where a new file lies until it is published.
+std::string partial_path(const std::string& path);
+
+/// A new file, at its `partial_path`. A killed run must leave a readable file, and a running one must let
+/// readers in: the oldest format, no file locking, and a file driver of our own (journaled_driver.hpp), by
+/// which each flush takes the file from one whole state to the next, wherever the process is killed. It says
+/// at once where it comes from (`write_provenance`).
 Hdf5File create_file(const std::string& path);
+/// Gives a new file, once flushed, its own name, over an older one. Throws `LibraryError`.
+void publish_file(hid_t file, const std::string& path);
+
+/// An existing file, without file locking, so that the file of a running job can be read.
+Hdf5File open_file(const std::string& path);
+/// The same to write in it; what is written over what is there waits for a flush until `let_data_through`.
+Hdf5File open_file_to_write(const std::string& path);
+void let_data_through(hid_t file);
+/// Makes good what a process left that was killed while it flushed; nothing where there is nothing to do.
+/// `to_write`: for the process that owns the file now; any other leaves alone what somebody is at work on.
+void recover_file(const std::string& path, bool to_write = false);
+
+// HDF5 does not survive a write that fails, and is not told: ask after what may have filled the disk.
+
+/// Throws `LibraryError` "<what>: <the system's words>" when a write to the file has failed.
+void check_written(hid_t file, const std::string& what = "");
+/// Nothing more gets to the disk; the file stays as it was flushed last.
+void abandon_file(hid_t file);
+/// Closes it. Throws likewise.
+void close_file(Hdf5File& file);
 
 /// Attributes of the root group: program, version, commit (where built from git), date (UTC, of the start)
 /// and ranks. They stand apart from the datasets, which are the same on any number of ranks.
@@ -55,11 +79,6 @@ void write_provenance(hid_t file);
 
 /// "fnv1a:" and 16 hexadecimal digits, as run.yaml and the root attribute mesh_checksum have it.
 std::string checksum_text(std::uint64_t checksum);
-
-/// Cuts a file of the serial driver off from the disk, after a write that failed: what HDF5 still wants to
-/// write, on closing at the latest, goes nowhere, so that the file stays as the last flush left it and HDF5
-/// does not stumble over its own half-done work when the program ends.
-void cut_off(hid_t file);
 
 /// Hands on the return value of an HDF5 function, or throws `LibraryError` "<what>: <HDF5's innermost
 /// message>" when it is negative: `hdf5(H5Dwrite(…), "cannot write /time of history.h5")`.
@@ -76,6 +95,15 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 /// Likewise a number.
 void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+
+/// The text of an attribute of fixed length.
+std::string attribute_text(hid_t object, const std::string& name);
+/// Whether there is an object of this path.
+bool has_path(hid_t file, const std::string& path);
+/// Names of what a group holds, ascending.
+std::vector<std::string> links_of(hid_t file, const std::string& group);
+/// Of a dataset; `what` is for the message.
+std::vector<hsize_t> shape_of(hid_t dataset, const std::string& what);
 
 /// The two attributes that every dataset carries: SI unit ("1" for a ratio) and one line for people.
 void describe_dataset(hid_t dataset, const std::string& units, const std::string& description);

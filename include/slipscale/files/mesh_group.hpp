@@ -20,6 +20,10 @@ struct MeshLayout {
 /// root group gets the attribute mesh_checksum where there is a mesh file. Collective.
 MeshLayout write_mesh(MPI_Comm comm, SharedFile& file, const MeshImage& image);
 
+/// Refuses a file to be continued whose /mesh is not that of the image: checksum, box, numbers of points and
+/// cells (`SharedFile::examine`). Collective.
+MeshLayout check_mesh(MPI_Comm comm, const SharedFile& file, const MeshImage& image);
+
 /// What a group with its headers and attributes takes of a file, bytes, for predictions.
 constexpr double group_overhead = 8000;
 

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slipscale/files/disk_space.hpp"
 #include "slipscale/files/hdf5.hpp"
 
 namespace slipscale {
@@ -17,13 +19,24 @@ namespace slipscale {
 /// is found before HDF5 stumbles over it; of a batch that does not fit the first rows are kept. Nothing here
 /// throws, because the other ranks would wait for ever: a failure is kept in `fault`, which the caller shares
 /// with them (`throw_together`) when it suits, and after which all members do nothing.
+///
+/// A file that another process began can be continued: the same declarations then check what is there, and
+/// nothing is written until the first batch, which cuts off the rows behind those that count. What is not as
+/// declared is kept in `refusal`, a sentence for the user, after which all members do nothing, too.
 class SeriesFile {
  public:
   enum class Storage { real, byte };  ///< 64-bit floating point; unsigned 8-bit integer
 
-  /// Creates the file, over an older one. `expected_rows`: chunks need not be larger. The first row is
-  /// written at once, then a batch when `seconds` have passed since the last, or more where writing is slow.
-  explicit SeriesFile(std::string path, double seconds = 0.5, double expected_rows = 1e15);
+  /// That the file is there and has at least so many rows, of which these count.
+  struct Continue {
+    hsize_t rows = 0;
+  };
+
+  /// Creates the file, over an older one, or opens it to `continued`. `expected_rows`: chunks need not be
+  /// larger. The first row is written at once, then a batch when `seconds` have passed since the last, or
+  /// more where writing is slow.
+  explicit SeriesFile(std::string path, double seconds = 0.5, double expected_rows = 1e15,
+                      std::optional<Continue> continued = {});
   ~SeriesFile();
   SeriesFile(SeriesFile&&) = default;
   SeriesFile& operator=(SeriesFile&&) = delete;
@@ -52,10 +65,16 @@ class SeriesFile {
   /// Writes the rest and closes the file.
   void close();
 
+  /// The rows so far of a quantity that is real, one after the other; empty when they cannot be read, which
+  /// is a fault.
+  std::vector<double> read(int id);
+
   /// Predicted size after so many rows, bytes.
   double bytes(double rows) const;
   /// One sentence on what went wrong; empty as long as all is well.
   const std::string& fault() const { return fault_; }
+  /// One sentence on why the file cannot be continued; empty as long as it can.
+  const std::string& refusal() const { return refusal_; }
   hsize_t rows() const { return rows_; }                ///< complete ones, in memory and on disk
   std::size_t row_bytes() const { return row_bytes_; }  ///< of all quantities together
 
@@ -77,22 +96,31 @@ class SeriesFile {
   };
   using Clock = std::chrono::steady_clock;
 
+  bool sound() const { return fault_.empty() && refusal_.empty(); }
   template <class Action>
   void guarded(const char* what, Action action);
+  template <class Action>
+  void checked(Action action);
+  void open_column(Column& column, const std::string& units);
   void append_bytes(int id, const void* row, Storage storage);
   std::string reserve_for(hsize_t& rows);
   void reserve(hsize_t rows);
+  void cut_back();
+  void flush_file();
   void write_constants();
   void write_batch(Column& column, hsize_t rows);
 
-  std::string path_, fault_;
+  std::string path_, fault_, refusal_;
   Hdf5File file_;
+  Reservation room_;
   std::vector<Column> columns_;
   std::vector<Constant> constants_;  ///< not yet on disk
   hsize_t rows_ = 0, written_ = 0;
   std::size_t row_bytes_ = 0;
   double seconds_, pause_, expected_rows_;
-  bool flushed_ = false;
+  bool published_ = false;
+  std::optional<Continue> continued_;
+  bool to_cut_ = false;  ///< there may be rows behind those that count
   Clock::time_point last_ = Clock::now();
 };
 

@@ -56,10 +56,12 @@ hid_t index_type();
 class SharedFile {
  public:
   /// `whole`: under a temporary name until `finish`, and gone if that never comes; `growing`: under its own
-  /// name from the start, readable after every `flush`.
-  enum class Appearance { whole, growing };
+  /// name from the first `flush`, readable after each; `continued`: a growing one that another process
+  /// began, to `examine` and then go on with.
+  enum class Appearance { whole, growing, continued };
 
-  /// `bytes`: what the file will soon have at most, set aside at once.
+  /// `bytes`: what the file will soon have at most, set aside at once. Throws `UserError` on all ranks when a
+  /// file to be continued is not there, damaged, or of another program.
   SharedFile(MPI_Comm comm, const std::string& path, double bytes, Appearance appearance = Appearance::whole);
   ~SharedFile();
   SharedFile(const SharedFile&) = delete;
@@ -86,23 +88,37 @@ class SharedFile {
   /// Adds attributes to a dataset or group that exists, on rank 0 alone.
   void describe(const std::string& object, const std::function<void(hid_t object)>& attributes);
 
+  /// Looks at the file on rank 0; `LibraryError` with a fault becomes `UserError`, the sentence on why it
+  /// cannot be continued, on all ranks.
+  void examine(const std::function<void(hid_t file)>& look) const;
+  /// Does something else to the file, on rank 0 alone.
+  void change(const std::function<void(hid_t file)>& action);
+  /// Of a continued file: all that had to be removed is, and its room may be used.
+  void end_changes();
+
+  /// The first `count` numbers of a list, the same on every rank. Throws as `examine`.
+  std::vector<double> read_series(const DatasetDescription& about, std::size_t count) const;
+  /// Keeps the first `count` of a list.
+  void cut_series(const std::string& series, std::size_t count);
+
   /// Sets room aside for what comes next; when the disk has not got it, the file stays as it is.
   void reserve(double bytes);
   void flush();
   void finish();
 
  private:
-  /// Runs it on rank 0. After a failure inside HDF5 the file is cut off from the disk.
+  /// Runs it on rank 0. After a failure nothing more gets to the disk.
   void on_root(const std::function<void()>& action);
-  std::string name() const { return appearance_ == Appearance::whole ? path_ + ".partial" : path_; }
+  std::string name() const { return published_ ? path_ : partial_path(path_); }
   void discard();
+  void publish();
 
   MPI_Comm comm_;
   bool root_;
   std::string path_;
   Appearance appearance_;
   Hdf5File file_;  ///< on rank 0
-  bool finished_ = false;
+  bool published_ = false, finished_ = false;
 };
 
 }  // namespace slipscale

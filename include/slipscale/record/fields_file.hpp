@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "slipscale/files/hdf5.hpp"
 #include "slipscale/files/mesh_image.hpp"
 #include "slipscale/mesh/mesh.hpp"
 
@@ -40,9 +42,12 @@ class FieldsFile {
  public:
   /// Writes the mesh. `folder` must exist; older files of these names, `name`.h5 and .xdmf, are overwritten.
   /// `transverse` [local cells] is σ_zz/(σ_xx + σ_yy), see `transverse_ratio`; without it nothing is known of
-  /// zz.
+  /// zz. `frames`: continues a file that another process began, with so many of its frames; nothing is
+  /// written before the next frame, or the end, which remove the others. Throws `UserError` when it has fewer
+  /// frames, another mesh or other quantities.
   FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder, FieldQuantities quantities,
-             const std::string& name = "fields", std::vector<double> transverse = {});
+             const std::string& name = "fields", std::vector<double> transverse = {},
+             std::optional<std::size_t> frames = {});
   /// Of the whole mesh, without a box.
   FieldsFile(MPI_Comm comm, const Mesh& mesh, const std::string& folder, FieldQuantities quantities);
   ~FieldsFile();
@@ -52,6 +57,8 @@ class FieldsFile {
   void write(double time, const double* u, const double* v, const double* stress,
              const double* strain = nullptr);
 
+  std::size_t frames() const;  ///< so far
+
   /// Predicted size after `frames` frames.
   double bytes(double frames) const;
 
@@ -59,6 +66,9 @@ class FieldsFile {
   void close();
 
  private:
+  void check_frames(std::size_t frames) const;
+  void check_frame(hid_t file, const std::string& group) const;
+  void cut_back();
   void write_nodal(const DatasetDescription& about, const double* values);
   void write_on_cells(const DatasetDescription& about, const double* values);
   void write_stress(const std::string& frame, const double* stress);
@@ -71,6 +81,7 @@ class FieldsFile {
   std::unique_ptr<SharedFile> file_;
   std::string xdmf_path_;
   std::unique_ptr<XdmfDocument> xdmf_;
+  bool to_cut_ = false;  ///< there may be frames behind those that count
 };
 
 /// Predicted size of fields.h5 after `frames` frames, bytes.

@@ -14,7 +14,7 @@ namespace slipscale {
 
 /// relocalized.h5 and relocalized.xdmf: the mesh of the microstructure over the block and, at the times of
 /// the homogeneous run's frames, strain and stress of its cells. Laid out as fields.h5; opens in ParaView as
-/// it is. One frame is in memory at a time, and on the disk before `write` returns.
+/// it is. One frame is in memory at a time; both files appear under their names when they are whole.
 ///
 /// /mesh; /time [frames]; /frames/<k>/stress and /frames/<k>/homogeneous_stress [cells, 3] Pa (xx, yy, xy),
 /// /frames/<k>/strain [cells, 3] (engineering shear); /points/<k>/x [2] m, region, time [frames], stress,
@@ -29,7 +29,7 @@ class RelocalisedFile {
   /// This rank's cells: local stress and strain, and the stress C_eff:E that the homogeneous run saw there.
   void write(double time, std::span<const PlaneTensor> stress, std::span<const PlaneTensor> strain,
              std::span<const PlaneTensor> homogeneous_stress);
-  /// Writes the histories and closes the file.
+  /// Writes the histories; the files get their names.
   void close(const std::vector<LocalHistory>& histories);
 
  private:

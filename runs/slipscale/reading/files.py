@@ -3,6 +3,7 @@
 import h5py
 
 from slipscale.mistakes import Mistake
+from slipscale.reading.recovery import make_good
 from slipscale.reading.yaml_file import load
 
 
@@ -14,6 +15,7 @@ def open_hdf5(path, program="slide"):
     """An open, read-only `h5py.File`. Raises UnreadableRun when there is none or it cannot be read."""
     if not path.is_file():
         raise UnreadableRun(f"There is no {path.name} in {path.parent}: give the output folder of a `{program}` run.")
+    make_good(path)
     try:
         return h5py.File(path, "r")
     except OSError as error:

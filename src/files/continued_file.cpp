@@ -1,0 +1,81 @@
+#include "slipscale/files/continued_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+
+#include "slipscale/base/error.hpp"
+#include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
+
+namespace slipscale {
+namespace {
+
+void require(bool fine, const std::string& fault) {
+  if (!fine) throw LibraryError(fault);
+}
+
+std::string text_of(const std::vector<hsize_t>& shape) {
+  std::string text;
+  for (const hsize_t n : shape) text += (text.empty() ? "" : " x ") + std::to_string(n);
+  return text.empty() ? "one number" : text;
+}
+
+}  // namespace
+
+std::string continuation_fault(const std::string& path, const std::string& fault) {
+  return "'" + path + "' cannot be continued: " + fault +
+         "; put back the file that the interrupted run left, or start the run anew";
+}
+
+Hdf5File open_to_continue(const std::string& path) {
+  std::error_code error;
+  require(std::filesystem::exists(path, error), "it is not there");
+  recover_file(path, true);
+  require(H5Fis_hdf5(path.c_str()) > 0, "it is no HDF5 file or damaged");
+  Hdf5File file = open_file_to_write(path);
+  expect_text(file, "program", provenance().program);
+  return file;
+}
+
+void expect_text(hid_t object, const std::string& name, const std::string& text) {
+  const std::string found = attribute_text(object, name);
+  require(found == text, format("its {} is '{}' and not '{}'", name, found, text));
+}
+
+Hdf5Dataset expect_dataset(hid_t file, const std::string& path, hid_t type, const std::vector<hsize_t>& shape,
+                           const std::string& units) {
+  require(has_path(file, path), format("it has no '{}'", path));
+  Hdf5Dataset dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
+  const Hdf5Type found(hdf5(H5Dget_type(dataset), path));
+  require(H5Tequal(found, type) > 0, format("'{}' has another type of number", path));
+  auto there = shape_of(dataset, path), wanted = shape;
+  if (!wanted.empty() && wanted[0] == any_rows && !there.empty()) wanted[0] = there[0];
+  require(there == wanted, format("'{}' has the shape {} and not {}", path, text_of(there), text_of(wanted)));
+  const std::string unit = attribute_text(dataset, "units");
+  require(unit == units, format("'{}' is in {} and not in {}", path, unit, units));
+  return dataset;
+}
+
+void expect_values(hid_t file, const std::string& path, const std::vector<hsize_t>& shape,
+                   const std::string& units, const double* values) {
+  const Hdf5Dataset dataset = expect_dataset(file, path, H5T_IEEE_F64LE, shape, units);
+  std::vector<double> there(std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>()));
+  hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, there.data()), path);
+  require(std::equal(there.begin(), there.end(), values), format("'{}' has other values", path));
+}
+
+Hdf5Dataset expect_series(hid_t file, const std::string& path, hid_t type,
+                          const std::vector<hsize_t>& row_shape, hsize_t rows, const std::string& units) {
+  std::vector<hsize_t> shape{any_rows};
+  shape.insert(shape.end(), row_shape.begin(), row_shape.end());
+  Hdf5Dataset dataset = expect_dataset(file, path, type, shape, units);
+  const hsize_t there = shape_of(dataset, path)[0];
+  require(there >= rows, format("'{}' has {} of the {} rows that were written", path, there, rows));
+  const Hdf5Properties creation(hdf5(H5Dget_create_plist(dataset), path));
+  require(H5Pget_layout(creation) == H5D_CHUNKED, format("'{}' cannot grow", path));
+  return dataset;
+}
+
+}  // namespace slipscale
