@@ -187,8 +187,14 @@ bool Recorder::fields_due(long n) const {
 }
 
 void Recorder::after_step(long n) {
-  force_.add(n);
+  {
+    static const LogEvent event("ForceRecord");
+    const LogEvent::Scope scope(event);
+    force_.add(n);
+  }
   if (due(n)) observe(n);
+  static const LogEvent event("Progress");
+  const LogEvent::Scope scope(event);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
 
