@@ -38,13 +38,12 @@ void homogenize(Options& options) {
   const HomogenisationChoice choice = read_homogenisation(options);
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = homogenisation_mesh(comm, choice);
-  for (const std::string& note : mesh.notes) print(note + "\n");
+  print_notes(mesh.notes);
   const std::vector<Material> materials = read_phases(options, mesh);
   end_reading(options);
 
   Homogenised found = homogenise(comm, choice, mesh, materials, [&](const CellSolution& first) {
-    for (const std::string& idle : first.idle_options)
-      print("note: " + idle + " is idle: the cell is solved directly (" + first.solver + ")\n");
+    print_notes(first.notes);
     options.refuse_unknown();
   });
 

@@ -37,7 +37,7 @@ void relocalize(Options& options) {
     comparison.emplace(comm, *sources.reference, targets, mine, run.times(), *choice.reference);
   options.refuse_unknown();
   print(describe(run, sources.tensors, targets, local));
-  for (const std::string& misfit : misfits(comm, sources)) print("note: " + misfit + "\n");
+  print_notes(misfits(comm, sources));
 
   const OutputFolder folder(comm, choice.folder,
                             {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",

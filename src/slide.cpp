@@ -8,12 +8,19 @@
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
 #include "slipscale/mesh/read.hpp"
+#include "slipscale/record/checkpoints.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/solid/material.hpp"
 
 using namespace slipscale;
 
 namespace {
+
+/// What may differ in a run that goes on: how long, how often it records, and what is checked by its content.
+const std::vector<std::string> may_change{
+    "restart",      "time_end",        "time_wall",        "checkpoint_minutes", "checkpoint_every",
+    "progress",     "history_every",   "history_interval", "contact_every",      "contact_interval",
+    "fields_every", "fields_interval", "fields_times",     "mesh_file"};
 
 /// The names that options may carry: those of the mesh, and `all` for every region that has no material of
 /// its own.
@@ -39,6 +46,22 @@ void print_scene(const Scene& scene) {
           describe(scene.friction) + "\n");
 }
 
+std::unique_ptr<Restart> find_restart(MPI_Comm comm, const std::optional<std::string>& folder) {
+  if (!folder) return nullptr;
+  auto restart = std::make_unique<Restart>(comm, *folder);
+  if (!restart->note().empty()) print_notes({restart->note()});
+  print(format("going on with '{}' after step {}\n", *folder, restart->steps_done() - 1));
+  return restart;
+}
+
+bool is_finished(const Restart& restart, const TimeStep& step) {
+  const bool finished = restart.steps_done() > step.count;
+  if (finished)
+    print(format("the run in '{}' is finished (t = {:g} s); a later -time_end would make it longer\n",
+                 restart.folder(), static_cast<double>(step.count) * step.step));
+  return finished;
+}
+
 void slide(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   auto set_up = std::make_unique<LogStage>("Set-up");
@@ -50,28 +73,41 @@ void slide(Options& options) {
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
   const Model::Storage storage = read_storage(options);
+  const StiffnessKernel kernel = read_kernel(options);
   end_reading(options);
-  const Model model(mesh, materials, storage);
+  const auto restart = find_restart(comm, record.restart);
+  if (restart) restart->check(mesh, materials);
+  const Model model(mesh, materials, storage, kernel);
+  print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene);
 
-  const TimeStep step = choose_step(comm, model, scene, time);
-  print(describe(step, model));
+  const TimeStep step = restart ? restart->time_step(time.end) : choose_step(comm, model, scene, time);
+  print(describe(step, model) + describe_kernel(comm, model));
   options.refuse_unknown();
 
+  if (restart && is_finished(*restart, step)) return;
+
   SlidingBody body(comm, model, scene, step.step);
-  for (const std::string& remark : remarks_at_start(body)) print("note: " + remark + "\n");
-  Recorder recorder(body, record, step);
+  if (restart) {
+    restart->read(body.state());
+    body.resume();
+  }
+  print_notes(remarks_at_start(body));
+  Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
-  print(recorder.forecast());
+  Checkpoints checkpoints(body, recorder, scene_marks(options, mesh, materials), record.checkpoint);
+  print(recorder.forecast() + checkpoints.forecast());
   set_up.reset();
 
   const LogStage steps("Steps");
-  for (long n = 0; n <= step.count; ++n) {
+  for (long n = body.steps_done(); n <= step.count; ++n) {
     body.advance(recorder.due(n));
     recorder.after_step(n);
+    checkpoints.after_step(n);
   }
   print("\n" + recorder.finish());
+  checkpoints.finish(step.count);
 }
 
 }  // namespace
@@ -82,5 +118,10 @@ int main(int argc, char** argv) {
       {"slide",
        "Explicit dynamics of a deformable block that is pressed on a rigid surface moving under it: "
        "beta2 time scheme, Lagrange multipliers for contact, regularised Coulomb friction.",
-       periodic_mesh_schema() + material_schema() + scene_schema() + record_schema(), slide, commit});
+       periodic_mesh_schema() + material_schema() + scene_schema() + record_schema(),
+       slide,
+       commit,
+       {},
+       {},
+       RestartRule{options_of_checkpoint, may_change}});
 }

@@ -1,6 +1,7 @@
 """Collects the runs of the study in one table; run by the Snakefile."""
 
 from slipscale.reading.effective import read_effective, relative_errors, square_symmetric
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
 
 
@@ -11,5 +12,6 @@ def result(folder, reference):
             **relative_errors(moduli, reference)}
 
 
-write_csv(snakemake.output[0],  # noqa: F821
-          collect(snakemake.input.outcomes, lambda folder: result(folder, snakemake.params.reference)))  # noqa: F821
+job = started_by_snakemake(globals())
+write_csv(job.output[0],
+          collect(job.input.outcomes, lambda folder: result(folder, job.params.reference)))

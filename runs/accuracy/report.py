@@ -3,6 +3,7 @@
 from accuracy.work_precision import MEGA, OPTIONS, Study, change, column, power_of
 from slipscale.measuring.convergence import observed_order, orders_from_errors, richardson
 from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
 
 GIGA = 1e-9
@@ -85,6 +86,6 @@ def report(rows, reference, orientation):
     return f"{bullets(lines)}\n{folded('All runs', table(study))}"
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 publish(report(read_csv(job.input.table), job.params.reference, job.params.orientation), job.output[0],
         job.params.readme, [job.input.picture])

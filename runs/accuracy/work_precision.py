@@ -3,8 +3,8 @@
     python3 -m accuracy.work_precision out/accuracy/table.csv picture.png
         [--orientation runs/accuracy/study.yaml]
 
-The table has the columns element, size (elements across the cell), solver, rtol, those of slipscale.reading.effective and
-error_C11. Of repeated runs the quickest counts.
+The table has the columns element, size (elements across the cell), solver, rtol, those of slipscale.reading.effective
+and error_C11. Of repeated runs the quickest counts.
 """
 
 import sys

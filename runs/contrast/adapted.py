@@ -14,8 +14,9 @@ GOES_ON = ("density_time",)  # ways whose distance before is that after another 
 
 
 def adapted_rows(outcome):
-    """Rows of an outcome.yaml of slipscale.adapting.adapt and the adapt.yaml beside it: one for each level, and one, `nearest`,
-    for the trial whose spectrum came nearest whatever it matched; one row with the reason if there is no adapt.yaml.
+    """Rows of an outcome.yaml of slipscale.adapting.adapt and the adapt.yaml beside it: one for each level, and one,
+    `nearest`, for the trial whose spectrum came nearest whatever it matched; one row with the reason if there is no
+    adapt.yaml.
 
     Columns: the options, `level`, status and reason of the level, `value`, `match`, COMPARED as before_ and after_, and
     the `folder` of the run after.
@@ -42,8 +43,8 @@ def adapted_rows(outcome):
 
 
 def cases_of(rows):
-    """{composite: {(way, level): row}} of adaptations that had a distance before; a composite is (young, diameter, size,
-    seed)."""
+    """{composite: {(way, level): row}} of adaptations that had a distance before; a composite is (young, diameter,
+    size, seed)."""
     cases = {}
     for row in rows:
         if row["model"] == "adapted" and row.get("before_spectrum_distance") is not None:
@@ -72,3 +73,8 @@ def best_level(case, way):
 
 def after(found):
     return {**{f"after_{name}": found[name] for name in COMPARED}, "folder": found["folder"]} if found else {}
+
+
+if __name__ == "__main__":
+    raise SystemExit("contrast.adapted is a library, no command: snakemake --snakefile runs/contrast/Snakefile runs "
+                     "the study.")

@@ -6,9 +6,10 @@ from contrast.adapted import adapted_rows
 from slipscale.measuring.distance import spectrum_distance
 from slipscale.measuring.regime import costs, friction_spectrum, measures
 from slipscale.reading.effective import SIX, read_effective
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 window = [float(time) for time in job.params.window]
 
 

@@ -42,3 +42,8 @@ def rank_correlation(a, b):
 def fold(values):
     """Largest over smallest."""
     return max(values) / min(values)
+
+
+if __name__ == "__main__":
+    raise SystemExit("contrast.morphologies is a library, no command: snakemake --snakefile runs/contrast/Snakefile "
+                     "runs the study.")

@@ -5,6 +5,7 @@ import numpy as np
 from contrast.adapted import WAYS, before_of, best_level, cases_of
 from contrast.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
 from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
 
 GIGA, KILO = 1e-9, 1e-3
@@ -31,11 +32,13 @@ def title(key, block):
 
 def scatter_table(groups, block):
     header = ["block / disc", "inclusions [GPa]", "morphologies", "spread of C11, C22, C12, C66", "amplitude",
-              "highest / lowest", "spread", "of the blocks: amplitude", "highest / lowest", "spread", "rank correlation"]
+              "highest / lowest", "spread", "of the blocks: amplitude", "highest / lowest", "spread",
+              "rank correlation"]
     lines = []
     for key, pairs in groups.items():
         own, block_s = column(pairs, "amplitude"), column(pairs, "amplitude", 1)
-        lines.append([*title(key, block), len(pairs), ", ".join(percent(spread(column(pairs, name, 1))) for name in MODULI),
+        lines.append([*title(key, block), len(pairs),
+                      ", ".join(percent(spread(column(pairs, name, 1))) for name in MODULI),
                       span(own, ".3f"), f"{fold(own):.1f}", percent(spread(own)), span(block_s, ".3f"),
                       f"{fold(block_s):.1f}", percent(spread(block_s)), f"{rank_correlation(own, block_s):.2f}"])
     return markdown(header, lines)
@@ -50,7 +53,8 @@ def behaviour_table(groups, block):
                 for part in (span(column(pairs, name, k), form, factor) for k in (0, 1))]
         still = [sum("stick" not in regime for regime in column(pairs, "regime", k)) for k in (0, 1)]
         distances = column(pairs, "spectrum_distance", 1)
-        lines.append([*title(key, block), *both, *still, *(span(column(pairs, "power_ratio", k), ".3f") for k in (0, 1)),
+        lines.append([*title(key, block), *both, *still,
+                      *(span(column(pairs, "power_ratio", k), ".3f") for k in (0, 1)),
                       f"{np.median(distances):.2f} ({span(distances, '.2f')})"])
     return markdown(header, lines)
 
@@ -67,8 +71,8 @@ def bounds_table(groups, rows, block):
             frequency = [f"{KILO * np.median(column(three, 'frequency', k)):.0f}" for k in (0, 1, 2)]
             distance = [f"{np.median(column(three, 'spectrum_distance', k)):.2f}" for k in (1, 2)]
             nearer = sum(soft["spectrum_distance"] < stiff["spectrum_distance"] for _, stiff, soft in three)
-            lines.append([*title(key, block), len(three), *(f"{value:.1f}" for value in stiffness), *frequency, *distance,
-                          nearer])
+            lines.append([*title(key, block), len(three), *(f"{value:.1f}" for value in stiffness), *frequency,
+                          *distance, nearer])
     return markdown(["block / disc", "inclusions [GPa]", "morphologies", "C22, linear displacement [GPa]",
                      "uniform traction", "median frequency [kHz]", "linear displacement", "uniform traction",
                      "median distance, linear displacement", "uniform traction", "nearer with it"], lines)
@@ -144,9 +148,10 @@ def same_frequency_lines(cases, near=0.03):
         rows = [best for case in cases.values() if (best := best_level(case, "time"))
                 and (abs(best["before_frequency"]) < near) == right]
         if rows:
+            left = ", ".join(f"{row['before_spectrum_distance']:.2f} to {row['after_spectrum_distance']:.2f}"
+                             for row in rows)
             yield (f"frequency {'within' if right else 'off by more than'} {100 * near:g} % before ({len(rows)} of "
-                   f"them): the nearest level of T takes the distance from "
-                   f"{', '.join(f'''{row['before_spectrum_distance']:.2f} to {row['after_spectrum_distance']:.2f}''' for row in rows)}.")
+                   f"them): the nearest level of T takes the distance from {left}.")
 
 
 def seen_line(cases):
@@ -154,17 +159,17 @@ def seen_line(cases):
             if (row := case.get(("time", "frequency"))) and row.get("time_seen_homogeneous")]
     if seen:
         both = [[1e6 * time for time in times if time] for times in zip(*seen)]
-        yield ("the law of one frequency, asked for the T of the run whose own motion and power it is given (all have the "
-               f"same T): {span(both[0], '.2f')} µs of the composites, {span(both[1], '.2f')} µs of the blocks.")
+        yield ("the law of one frequency, asked for the T of the run whose own motion and power it is given (all have "
+               f"the same T): {span(both[0], '.2f')} µs of the composites, {span(both[1], '.2f')} µs of the blocks.")
 
 
 def run_table(rows):
-    header = [*RUN, "amplitude", "frequency [kHz]", "T / N", "stick", "open", "power ratio", "settled", "regime",
-              "C11, C22, C66 [GPa]", "distance"]
+    header = [*RUN, "amplitude", "frequency [kHz]", "T / N", "stick", "open", "power ratio", "amplitude ratio",
+              "regime", "C11, C22, C66 [GPa]", "distance"]
     return markdown(header, [
         [*(row[name] for name in RUN), f"{row['amplitude']:.3f}", f"{KILO * row['frequency']:.0f}",
          f"{row['friction']:.4f}", f"{row['stick']:.3f}", f"{row['open']:.3f}", f"{row['power_ratio']:.3f}",
-         f"{row['settled']:.2f}", row["regime"],
+         f"{row['amplitude_ratio']:.2f}", row["regime"],
          ", ".join(f"{GIGA * row[name]:.2f}" for name in ("C11", "C22", "C66")) if row["C11"] else "",
          f"{row['spectrum_distance']:.2f}" if row["spectrum_distance"] else ""]
         for row in rows if row["model"] != "adapted" and row["status"] == "ok"])
@@ -180,8 +185,8 @@ def report(rows, block):
     groups, cases = groups_of(pairs), cases_of(rows)
     broken = [row for row in rows if row["status"] != "ok" and not row.get("level")]
     lines = [*same_frequency_lines(cases), *adapted_lines(cases), *seen_line(cases), *failures(broken, (*RUN, "way"))]
-    return f"""Scatter of the amplitude (standard deviation of T over mean N) over morphologies; spread is the standard deviation over
-the mean; the rank correlation is that of morphologies and their own homogenised blocks:
+    return f"""Scatter of the amplitude (standard deviation of T over mean N) over morphologies; spread is the standard
+deviation over the mean; the rank correlation is that of morphologies and their own homogenised blocks:
 
 {scatter_table(groups, block)}
 {behaviour_table(groups, block)}
@@ -203,6 +208,6 @@ Adapting something else (`density` the frequency by the density in kg/m³, `then
 {folded("All runs", run_table(rows))}"""
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 publish(report(read_csv(job.input.table), 1e3 * float(job.params.block)), job.output[0], job.params.readme,
         [job.input.scatter, job.input.adapted])

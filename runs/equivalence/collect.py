@@ -6,9 +6,10 @@ from pathlib import Path
 from equivalence.verdict import points
 from slipscale.measuring.regime import costs, measures
 from slipscale.reading.yaml_file import load
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 windows = {name: [float(end) for end in window] for name, window in job.params.windows.items()}
 
 

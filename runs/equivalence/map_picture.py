@@ -5,19 +5,19 @@
 
 Colour is the verdict of `equivalence.verdict`, with the strongest frequency of composite / homogenised block in kHz
 and below it how far the homogenised block's spectrum is from the morphologies' / how far that may be; * where a run
-still grew or fell.
+had not settled.
 """
 
 import sys
 
-from equivalence.verdict import SETTLED, VERDICTS
+from equivalence.verdict import VERDICTS
 from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.maps import FAILED, map_panel, pairs, selected
 from slipscale.pictures.scales import UNITS, Scale, Shades
 from slipscale.reading import UnreadableRun
-from slipscale.running.table import read_csv
+from slipscale.running.table import is_true, read_csv
 
 COLOURS = dict(zip(VERDICTS, (GREEN, "#B9E3D3", "0.8", SKY, PURPLE, VERMILION, ORANGE, BLUE)))
 LIGHT = (VERMILION, BLUE)  # behind white words
@@ -26,7 +26,7 @@ LIGHT = (VERMILION, BLUE)  # behind white words
 def said(row):
     """What stands in a cell."""
     frequencies = "/".join(f"{row[f'frequency_{kind}'] / 1e3:.0f}" for kind in ("composites", "homogenised"))
-    still_changing = "*" if row["settled"] > SETTLED else ""
+    still_changing = "" if is_true(row["settled"]) else "*"
     return f"{frequencies}{still_changing}\n{row['spectrum_apart']:.2f}/{row['spectrum_limit']:.2f}"
 
 

@@ -97,8 +97,8 @@ def draw(options):
         spacing = [length / each.portrait.shape[1] if each else None for each in (run, own)]
         portrait(axes, run, own, spacing, COLOURS[k % len(COLOURS)], f"morphology {k + 1}")
     panels[0].set_ylabel("tangential velocity of M [m/s]")
-    above.suptitle(f"Verdict: {verdict(composites, homogenised)}\nPhase portraits of M over {SHOWN * MICRO:.0f} µs; grey: the homogenised block of that morphology",
-                   fontsize=12)
+    above.suptitle(f"Verdict: {verdict(composites, homogenised)}\nPhase portraits of M over {SHOWN * MICRO:.0f} µs; "
+                   "grey: the homogenised block of that morphology", fontsize=12)
     left, middle, right = below.subplots(1, 3, width_ratios=[1.6, 1, 1.1])
     spectra(left, composites, homogenised, options.window)
     shares(middle, composites, homogenised)

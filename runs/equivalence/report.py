@@ -2,16 +2,18 @@
 
 from collections import Counter
 
-from equivalence.verdict import ALIKE, FLOORS, SCALARS, SETTLED, VERDICTS
+from equivalence.verdict import ALIKE, FLOORS, SCALARS, VERDICTS
 from slipscale.pictures.scales import values_of
 from slipscale.reports.publish import bullets, failures, folded, publish
-from slipscale.running.table import markdown, read_csv
+from slipscale.running.studies import started_by_snakemake
+from slipscale.running.table import is_true, markdown, read_csv
 
 FORMS = {"friction": (1, ".3f"), "frequency": (1e-3, ".1f"), "amplitude": (1, ".3f"), "stick": (1, ".3f"),
          "open": (1, ".3f"), "velocity": (1, ".2f"), "power_ratio": (1, ".3f")}
 HEADS = {"friction": "friction", "frequency": "frequency [kHz]", "amplitude": "its amplitude", "stick": "stick",
          "open": "open", "velocity": "rms velocity of M [m/s]", "power_ratio": "power into body / drive"}
 PURE = ("friction", "frequency", "amplitude", "stick", "open", "power_ratio")  # the same in any units of load and speed
+SETTLED = ("settled", "amplitude ratio")
 POINT = ("block", "phases", "refine", "coefficient", "speed", "load", "memory", "window")
 
 
@@ -22,7 +24,7 @@ def in_form(measure, value):
 
 def marked(row, measure, text):
     """What does not lie within the scatter stands out."""
-    return text if row[f"{measure}_within"] == "True" else f"**{text}**"
+    return text if is_true(row[f"{measure}_within"]) else f"**{text}**"
 
 
 def place(row, names):
@@ -55,16 +57,21 @@ def map_table(points, names):
               f"{row['spectrum_apart']:.2f} / {row['spectrum_limit']:.2f}",
               *(kilohertz(row[f"{kind}_modes"]) for kind in ("composite", "homogenised")),
               *(", ".join(in_form(measure, row[f"{measure}_{kind}"]) for kind in ("composites", "homogenised"))
-                for measure in ("friction", "amplitude", "stick", "open", "power_ratio")), f"{row['settled']:.2f}"]
+                for measure in ("friction", "amplitude", "stick", "open", "power_ratio")), *settled(row)]
              for row in points]
     return markdown([*names, "verdict", "spectrum", "modes, composites [kHz]", "homogenised", "friction", "amplitude",
-                     "stick", "open", "power", "settled"], lines)
+                     "stick", "open", "power", *SETTLED], lines)
+
+
+def settled(row):
+    """Of a run, or of the runs of a point; the ratio is then that furthest from 1."""
+    return "yes" if is_true(row["settled"]) else "no", f"{row['amplitude_ratio']:.2f}"
 
 
 def run_table(rows, names):
     lines = [[*place(row, names), *(in_form(measure, row[measure]) for measure in SCALARS), row["regime"],
-              f"{row['settled']:.2f}", f"{row['wall_seconds']:.0f}"] for row in rows]
-    return markdown([*names, *(HEADS[measure] for measure in SCALARS), "regime", "settled", "seconds"], lines)
+              *settled(row), f"{row['wall_seconds']:.0f}"] for row in rows]
+    return markdown([*names, *(HEADS[measure] for measure in SCALARS), "regime", *SETTLED, "seconds"], lines)
 
 
 def counts(points):
@@ -76,10 +83,10 @@ def counts(points):
             number = Counter(row["verdict"] for row in found)
             said = ", ".join(f"{number[name]} {name}" for name in VERDICTS if number[name])
             yield f"Memory {memory}, block {block}, {len(found)} points: {said}."
-    moving = sum(row["settled"] > SETTLED for row in points)
+    moving = sum(not is_true(row["settled"]) for row in points)
     if points:
-        yield (f"At {moving} of {len(points)} points the amplitude of some run changed by more than a factor {SETTLED} in "
-               "its window.")
+        yield (f"At {moving} of {len(points)} points some run had not settled in its window, by the rule of "
+               "summary.yaml.")
 
 
 def worst_of(one, other):
@@ -120,10 +127,11 @@ def report(rows, points, figures):
              *(f"No verdict: {', '.join(f'{name} {row[name]}' for name in POINT)}: {row['reason']}"
                for row in points if row["status"] != "ok")]
     floors = ", ".join(f"{name.replace('_', ' ')} {floor:g}" for name, floor in FLOORS.items())
-    return f"""Several morphologies and the homogenised block of each; `refine` 1 halves the mesh. Distances: of the typical (median)
-homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the others, which is what
-is allowed. Numbers: mean of the morphologies → typical homogenised block, in brackets how far apart they may be. Bold is
-what lies outside.
+    return f"""Several morphologies and the homogenised block of each; `refine` 1 halves the mesh. Distances: of the
+typical (median) homogenised block to the mean of the morphologies / the largest of a morphology to the mean of the
+others, which is what is allowed. Numbers: mean of the morphologies → typical homogenised block, in brackets how far
+apart they may be. Bold is what lies outside. A run has settled by the rule of summary.yaml; amplitude ratio: second
+half of the window over the first, of a point that furthest from 1.
 
 {figure_table(shown)}
 {bullets(lines)}
@@ -134,6 +142,6 @@ and nothing is equivalent to them.
 {folded("All runs of the figures", run_table(runs, ["model", "seed", *names]))}"""
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 publish(report(read_csv(job.input.runs), read_csv(job.input.points), job.params.figures), job.output[0],
         job.params.readme, job.input.pictures)

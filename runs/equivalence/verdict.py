@@ -25,8 +25,6 @@ ALIKE = 0.5  # scatter of the spectra above which morphologies are not alike, so
 COMPARABLE = 1 / 3  # height of a second peak of √density, of the first, from which on it counts as a mode
 NEAR = 0.05  # of a frequency: within it two are the same
 
-SETTLED = 1.25  # a run whose amplitude changes by a larger factor within its window is not settled
-
 EQUIVALENT, STABLE, UNSETTLED, ONE_ONLY, COMPETE, FREQUENCY, AMPLITUDE, UNLIKE = VERDICTS = (
     "equivalent", "nothing vibrates", "not settled", "only one vibrates", "modes compete", "frequency differs",
     "amplitude differs", "morphologies differ")
@@ -131,16 +129,18 @@ def same(frequencies):
 
 def verdict(composites, homogenised):
     """One of VERDICTS on two lists of Run. Equivalent means that the morphologies are alike (their scatter is below
-    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: a run is not settled;
-    some vibrate and others do not; a run has two modes or the morphologies have different ones; the block has another
-    frequency than the morphologies; morphologies are not alike; its spectrum is as much apart at the same frequency."""
+    ALIKE) and the homogenised block lies within it; else the first of these reasons that applies: a run has not
+    settled, by the rule of `measures` and of summary.yaml; some vibrate and others do not; a run has two modes or the
+    morphologies have different ones; the block has another frequency than the morphologies; morphologies are not alike;
+    its spectrum is as much apart at the same frequency."""
     runs = [*composites, *homogenised]
+    settled = all(run.values["settled"] for run in runs)
     if not any(run.vibrates for run in runs):
-        return STABLE
+        return STABLE if settled else UNSETTLED
     judged = judge("spectrum", composites, homogenised)
     if all(run.vibrates for run in runs) and judged.scatter <= ALIKE and judged.within:
         return EQUIVALENT
-    if max(map(unsettled, runs)) > SETTLED:
+    if not settled:
         return UNSETTLED
     if not all(run.vibrates for run in runs):
         return ONE_ONLY
@@ -152,19 +152,19 @@ def verdict(composites, homogenised):
     return AMPLITUDE if judged.scatter <= ALIKE else UNLIKE
 
 
-def unsettled(run):
-    """By what factor, 1 or more, its amplitude grew or fell from the first to the second half of the window."""
-    ratio = run.values["settled"]
-    return max(ratio, 1 / ratio) if ratio > 0 else float("inf")
+def furthest_from_one(ratios):
+    """Of amplitude ratios, growing or falling, that which is most."""
+    return max(ratios, key=lambda ratio: abs(np.log(ratio)) if ratio > 0 else float("inf"))
 
 
 def compared(composites, homogenised):
-    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`, the
-    largest factor by which the amplitude of a run changed in the window; the modes in Hz as text; and for each measure
-    `_apart` (of the typical homogenised block), `_limit` and `_within`, for a number also `_composites` (mean) and
-    `_homogenised` (median)."""
+    """The columns of a study's table for one point, of two lists of Run: `verdict`; how many of each; `settled`,
+    whether all are, and `amplitude_ratio`, that of the run in which it is furthest from 1; the modes in Hz as text; and
+    for each measure `_apart` (of the typical homogenised block), `_limit` and `_within`, for a number also
+    `_composites` (mean) and `_homogenised` (median)."""
     row = {"verdict": verdict(composites, homogenised), "composites": len(composites), "homogenised": len(homogenised),
-           "settled": max(unsettled(run) for run in (*composites, *homogenised))}
+           "settled": all(run.values["settled"] for run in (*composites, *homogenised)),
+           "amplitude_ratio": furthest_from_one([run.values["amplitude_ratio"] for run in (*composites, *homogenised)])}
     for name, runs in (("composite_modes", composites), ("homogenised_modes", homogenised)):
         row[name] = "; ".join(" + ".join(f"{mode:.0f}" for mode in modes(run.spectrum)) for run in runs)
     for measure in ("spectrum", "portrait", *SCALARS):
@@ -179,8 +179,8 @@ def compared(composites, homogenised):
 
 def points(rows, folders, windows):
     """Rows of a table of runs (dicts, with the options `model`, composite or homogenised, `seed` and `window`) and
-    their folders give a row for each point, which is all other options, that both models were run at. `windows` are pairs in
-    s by name. A point with less than two morphologies that ran has the status failed."""
+    their folders give a row for each point, which is all other options, that both models were run at. `windows` are
+    pairs in s by name. A point with less than two morphologies that ran has the status failed."""
     groups = {}
     for row, folder in zip(rows, folders):
         place = {name: row[name] for name in list(row)[:list(row).index("status")] if name not in ("model", "seed")}
@@ -199,3 +199,8 @@ def points(rows, folders, windows):
         runs = [[read_run(folder, window) for folder in folders] for folders in models.values()]
         found[-1].update(compared(*runs))
     return found
+
+
+if __name__ == "__main__":
+    raise SystemExit("equivalence.verdict is a library, no command: snakemake --snakefile runs/equivalence/Snakefile "
+                     "runs the study.")

@@ -7,6 +7,7 @@ from refinement.refined import average_rows, distance_rows
 from refinement.sequences import chains
 from slipscale.measuring.regime import costs
 from slipscale.reading import UnreadableRun, read_yaml
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import run_name, write_csv
 
 DRAWN = ("inclusions", "moved", "redrawn", "dropped")  # of morphology's report
@@ -75,7 +76,7 @@ def rows_of(chain, run, runs):
     return [*found, *({**row, **each, **reference_of(chain)} for each in distances)]
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 runs = Runs(job.params.out, job.params.meshes)
 table = [row for chain in chains(job.params.sequences) for run in chain.runs for row in rows_of(chain, run, runs)]
 write_csv(job.output.table, table)

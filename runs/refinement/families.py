@@ -64,3 +64,8 @@ def file_command(path, family, size, mesh):
     numbers = [word for name, value in {"h": size, **family.get("numbers", {})}.items()
                for word in ("-setnumber", name, f"{float(value):.12g}")]
     return ["gmsh", "-2", "-v", "2", "-format", "msh41", *numbers, "-o", mesh, path]
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.families is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

@@ -72,7 +72,8 @@ def table_of(found, number):
     scale, unit = unit_of(sizes, found[0].along)
     averages = found[0].is_average()
     last = ["limit ± error bar", "scatter in time"] if averages else ["error of the reference"]
-    header = ["", heading_of(found), *(f"{h * scale:.4g} {unit}" for h in sizes), "order", *last, "ten times less costs"]
+    header = ["", heading_of(found), *(f"{h * scale:.4g} {unit}" for h in sizes), "order", *last,
+              "ten times less costs"]
     lines = [[each.variant, heading(each), *(number(each, h) for h in sizes), in_words(each), *limit_of(each),
               price_of(each)] for each in found]
     rest = [""] * (len(header) - 2 - len(sizes))
@@ -117,11 +118,11 @@ def drawing_lines(rows):
         mended = {size: mesh["moved"] + mesh["redrawn"] + mesh["dropped"] for size, mesh in meshes.items()}
         changed = [f"{size:g} m ({count} mended)" for size, count in mended.items() if count]
         if len(numbers) == 1 and np.ptp(parts) <= SAME_DRAWING and not changed:
-            yield (f"{family}: the same drawing on all {len(meshes)} meshes, {numbers.pop()} inclusions with a fraction "
-                   f"of {parts[0]:.6f}.")
+            yield (f"{family}: the same drawing on all {len(meshes)} meshes, {numbers.pop()} inclusions with a "
+                   f"fraction of {parts[0]:.6f}.")
         else:
-            yield (f"{family}: not the same drawing on all {len(meshes)} meshes: {', '.join(map(str, sorted(numbers)))} "
-                   f"inclusions, fractions {min(parts):.6f} to {max(parts):.6f}"
+            yield (f"{family}: not the same drawing on all {len(meshes)} meshes: "
+                   f"{', '.join(map(str, sorted(numbers)))} inclusions, fractions {min(parts):.6f} to {max(parts):.6f}"
                    f"{', inclusions moved or dropped at ' + ', '.join(changed) if changed else ''}.")
 
 
@@ -164,7 +165,8 @@ def every_run(rows):
     header = ["sequence", "variant", "size [m]", "step [s]", "nodes", "node-steps", "seconds", "distances", "averages"]
     return markdown(header, [
         [first["sequence"], first["variant"], f"{first['size']:.4g}", f"{first['step']:.4g}", first["nodes"],
-         f"{first['node_steps']:.2e}", f"{first['seconds']:.2f}", said(found, "error", ".3g"), said(found, "value", ".5g")]
+         f"{first['node_steps']:.2e}", f"{first['seconds']:.2f}", said(found, "error", ".3g"),
+         said(found, "value", ".5g")]
         for found in runs.values() for first in found[:1]])
 
 
@@ -185,3 +187,8 @@ def report(rows, unfolded=None):
         else:
             text += folded(title_of(part), sequence_text(part)) + "\n"
     return text + folded("All runs", every_run(rows))
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.findings is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

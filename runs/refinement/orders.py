@@ -185,3 +185,8 @@ def summary_rows(found):
              "orders": " ".join(f"{order:.3f}" for order in each.orders) if each.orders is not None else None,
              "order": each.order, "limit": each.limit, "error_bar": each.bar, "verdict": each.verdict,
              "price": each.price()} for each in found]
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.orders is a library, no command: snakemake --snakefile runs/refinement/Snakefile runs "
+                     "the study.")

@@ -35,10 +35,12 @@ def signal(history, boundary, name, point=0):
 
 
 def average_rows(folder, window, names, point=0, parts=4):
-    """A row for each of `names`, of regime.MEASURES: its value over the window; `parts`, its values in as many parts of
-    the window, as text; and `scatter`, the standard error of their mean, zero for one part."""
-    if unknown := [name for name in names if name not in MEASURES or name == "regime"]:
-        raise UnreadableRun(f"There is no average {unknown[0]}: known are {', '.join(MEASURES)}.")
+    """A row for each of `names`, of regime.MEASURES that are numbers with a meaning of their own: its value over the
+    window; `parts`, its values in as many parts of the window, as text; and `scatter`, the standard error of their
+    mean, zero for one part."""
+    known = [name for name, (unit, _) in MEASURES.items() if unit and not name.endswith("_error")]
+    if unknown := [name for name in names if name not in known]:
+        raise UnreadableRun(f"There is no average {unknown[0]}: known are {', '.join(known)}.")
     if not names:
         return []
     whole = measures(folder, window, point)
@@ -88,3 +90,8 @@ def distance_rows(folder, reference, window, trajectories=(), distances=(), poin
             raise UnreadableRun(f"There is no distance {name}: known are spectrum and portrait.")
         found.append(("distance", name, error))
     return [{"kind": kind, "quantity": name, "unit": "1", "error": error} for kind, name, error in found]
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.refined is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

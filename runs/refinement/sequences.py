@@ -1,4 +1,5 @@
-"""Sequences of runs that differ in the size of the elements, the time step, or both: what a refinement study is made of.
+"""Sequences of runs that differ in the size of the elements, the time step, or both: what a refinement study is made
+of.
 
 A sequence is a dict of these entries (runs/refinement/study.yaml spells several out):
 
@@ -21,8 +22,8 @@ import re
 from dataclasses import dataclass, field
 
 OPTIONS = ("scene", "family", "variant", "size", "step")  # of a run
-ENTRIES = ("name", "scene", "family", "variants", "size", "step", "step_per_size", "reference", "window", "trajectories",
-           "distances", "averages", "known", "point", "parts", "portraits")
+ENTRIES = ("name", "scene", "family", "variants", "size", "step", "step_per_size", "reference", "window",
+           "trajectories", "distances", "averages", "known", "point", "parts", "portraits")
 SEVERAL = ("variants", "trajectories", "distances", "averages")
 NAME = re.compile(r"[\w.+-]+")  # of a file
 SAME = 1e-6  # relative: sizes and steps that are closer are equal
@@ -115,3 +116,8 @@ def reference_of(sequence, finest):
     if "size" in given and "step" not in given and "step_per_size" in sequence:
         given["step"] = steps_of(sequence, [given["size"]])[0]
     return {**finest, **given}
+
+
+if __name__ == "__main__":
+    raise SystemExit("refinement.sequences is a library, no command: snakemake --snakefile runs/refinement/Snakefile "
+                     "runs the study.")

@@ -8,6 +8,7 @@ from relocalisation.comparison import compare_phases, read_comparison
 from slipscale.reading import Statistics, Summary
 from slipscale.reading.mesh import centroids_and_areas
 from slipscale.reading.yaml_file import load
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
 
 
@@ -53,6 +54,7 @@ def rows_of(run, before):
     return [{**row, **found} for found in compared]
 
 
-write_csv(snakemake.output[0],  # noqa: F821
-          [row for run, before in zip(snakemake.input.outcomes, snakemake.params.before)  # noqa: F821
+job = started_by_snakemake(globals())
+write_csv(job.output[0],
+          [row for run, before in zip(job.input.outcomes, job.params.before)
            for row in rows_of(run, before)])

@@ -126,3 +126,8 @@ def compare_phases(relocalised, reference):
         found, homogeneous = phase_values(file, "stress"), phase_values(file, "homogeneous_stress")
     return [row(*key, {"reference": expected[key], "relocalised": found[key], "homogeneous": homogeneous[key]})
             for key in expected if key in found]
+
+
+if __name__ == "__main__":
+    raise SystemExit("relocalisation.comparison is a library, no command: snakemake --snakefile "
+                     "runs/relocalisation/Snakefile runs the study.")

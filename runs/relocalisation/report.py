@@ -1,6 +1,7 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
 from slipscale.reports.publish import bullets, failures, folded, publish
+from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
 
 OPTIONS = ("case", "seed", "macro", "tensors", "recovery", "strip")
@@ -172,7 +173,8 @@ def run_table(study):
 def report(rows):
     study = Study(rows)
     lines = [*time_lines(study), *choice_lines(study), *failures(study.failures, OPTIONS)]
-    return f"""Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous mesh:
+    return f"""Relative L2 error of σ_yy against the heterogeneous run, homogeneous → relocalised, finest homogeneous
+mesh:
 
 {case_table(study)}
 {bullets(lines)}
@@ -196,6 +198,6 @@ Averages and quantiles by area (last time) of the phases; `periodic` is a cell o
 {folded("All runs", run_table(study))}"""
 
 
-job = snakemake  # noqa: F821
+job = started_by_snakemake(globals())
 publish(report(read_csv(job.input.table)), job.output[0], job.params.readme, job.params.shown,
         others=job.input.pictures)

@@ -11,13 +11,13 @@ from pathlib import Path
 TOP = Path(workflow.basedir).parents[1]
 sys.path.insert(0, str(TOP / "runs"))
 from slipscale.mistakes import Mistake
-from slipscale.running import programs, studies
+from slipscale.running import ended, programs, studies
 from slipscale.running.commands import settings, words
-from slipscale.running.table import named_runs, run_name
+from slipscale.running.table import named_runs, read_csv, run_name
 
 try:
-    SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"), workflow.overwrite_configfiles,
-                                   workflow.overwrite_config, workflow.config_args)
+    SETTINGS = studies.settings_of(config.get("study", f"{workflow.basedir}/study.yaml"),
+                                   workflow.overwrite_configfiles, workflow.overwrite_config, workflow.config_args)
 except Mistake as mistake:
     sys.exit(f"{workflow.basedir}: {mistake}")
 config.clear()
@@ -52,7 +52,8 @@ def quoted(paths):
 
 
 def readme_of(folder):
-    """The README that is renewed, or None: that of a clone, and of what the study itself says, not of what is laid over."""
+    """The README that is renewed, or None: that of a clone, and of what the study itself says, not of what is laid
+    over."""
     return folder if config["readme"] and (TOP / "CMakeLists.txt").is_file() else None
 
 
@@ -80,3 +81,24 @@ def say_what_is_run():
 # each of which makes one.
 rule part:
     input: lambda _: [outcome_of("run", name) for name in part_of(RUNS, config.get("part", JOB))]
+
+
+# After all that the engine says.
+onerror:
+    table = Path(f"{OUT}/table.csv")
+    if table.is_file() and not Path(f"{OUT}/ended.txt").exists():
+        sentence, good = ended.said(read_csv(table), table)
+        if not good:
+            print(sentence, file=sys.stderr)
+
+
+# The study fails if not one of its runs came to its end, after its table and its report are there.
+localrules: ended
+
+
+rule ended:
+    input:
+        table=f"{OUT}/table.csv",
+        report=f"{OUT}/report.md"
+    output: f"{OUT}/ended.txt"
+    shell: PYTHON + " -m slipscale.running.ended {input.table:q} {output:q}"

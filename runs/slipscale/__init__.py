@@ -24,17 +24,22 @@ import sys
 
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # before h5py: a running job holds its files open
 
-STARTED = ("slipscale", "slipscale.running.attempt")  # what `python3 -m` may name: the command, and what studies use
+# The command, and what studies use.
+STARTED = ("slipscale.__main__", "slipscale.running.attempt", "slipscale.running.ended")
 
 
-def _module_named():
-    """The module that `python3 -m` is about to run, or None."""
+def _module_started():
+    """The module of this package that Python was told to run, by `-m` or as a file, or None."""
     words = getattr(sys, "orig_argv", [])
-    return words[words.index("-m") + 1] if sys.argv[:1] == ["-m"] and "-m" in words[:-1] else None
+    if sys.argv[:1] == ["-m"] and "-m" in words[:-1]:
+        name = words[words.index("-m") + 1]
+        return name if name.startswith("slipscale.") else None
+    file, here = os.path.abspath(sys.argv[0] if sys.argv else ""), os.path.dirname(os.path.abspath(__file__))
+    return file[len(os.path.dirname(here)) + 1:-3].replace(os.sep, ".") if file.startswith(here + os.sep) else None
 
 
-if (_module_named() or "").startswith("slipscale.") and _module_named() not in STARTED:
-    print(f"{_module_named()} is a library, no command: slipscale -h lists the commands.", file=sys.stderr)
+if _module_started() not in (None, *STARTED):
+    print(f"{_module_started()} is a library, no command: slipscale -h lists the commands.", file=sys.stderr)
     sys.exit(2)
 
 _PUBLIC = {"Run": "slipscale.run", "Spectrum": "slipscale.run", "Frame": "slipscale.run", "Contact": "slipscale.run",

@@ -3,3 +3,7 @@
 
 class Mistake(Exception):
     pass
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.mistakes is a library, no command: slipscale -h lists the commands.")

@@ -36,3 +36,7 @@ def say(name, error):
     """One sentence on stderr about what stops the subcommand `name`; gives the exit code, 2."""
     print(f"slipscale {name}: {' '.join(str(error).split())}", file=sys.stderr)
     return 2
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.parser is a library, no command: slipscale -h lists the commands.")

@@ -1,5 +1,6 @@
 """One run of `slide` as Python sees it: `run = slipscale.Run("out/first")`. SI units throughout."""
 
+import sys
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,6 +11,7 @@ from slipscale.measuring import spectrum as welch
 from slipscale.measuring.averages import settling
 from slipscale.measuring.regime import friction_signal, measures
 from slipscale.measuring.window import choose_window, default_window, rows_in
+from slipscale.mistakes import Mistake
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
 
@@ -54,8 +56,9 @@ class Frame:
 
     time s; coordinates [np, 2] m; triangles [nt, 3] point numbers, a quadrilateral gives two; cell_of_triangle [nt];
     region [nc] index into region_names; u [np, 2] m; v [np, 2] m/s; stress [nc, 3] Pa and strain [nc, 3]
-    (xx, yy, xy; engineering shear); stress_zz, von_mises, principal_high and principal_low [nc] Pa. `axes.tripcolor(*frame.coordinates.T, frame.triangles,
-    facecolors=frame.stress[frame.cell_of_triangle, 1])` draws σ_yy.
+    (xx, yy, xy; engineering shear); stress_zz, von_mises, principal_high and principal_low [nc] Pa.
+    `axes.tripcolor(*frame.coordinates.T, frame.triangles, facecolors=frame.stress[frame.cell_of_triangle, 1])` draws
+    σ_yy.
     """
 
     time: float
@@ -193,13 +196,17 @@ class Run:
 
     def measures(self, from_=None, to=None):
         """What the run did over the window (s), as a dict: friction, frequency, amplitude, stick, slip, open, regime,
-        settled … `slipscale.MEASURES` has each with unit and meaning."""
+        settled, amplitude_ratio … `slipscale.MEASURES` has each with unit and meaning."""
         return measures(self.folder, self.window(from_, to))
 
     def table(self):
-        """Every column of history.h5 that has one number a row, as a pandas.DataFrame indexed by time (s). Needs
-        pandas."""
-        import pandas
+        """Every column of history.h5 that has one number a row, as a pandas.DataFrame indexed by time (s). Raises
+        Mistake where there is no pandas."""
+        try:
+            import pandas
+        except ModuleNotFoundError as missing:
+            raise Mistake(f"run.table() needs pandas, which {sys.executable} has not: install python3-pandas, or take "
+                          "run.time, run.friction, run.surface, run.energy … as they are.") from missing
 
         columns = {"friction": self.friction}
         for group, found in (("surface", self.surface), ("energy", self.energy), ("contact", self.states)):

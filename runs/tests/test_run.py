@@ -4,10 +4,12 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 import slipscale
+from slipscale.mistakes import Mistake
 from tests import fake_run
 
 
@@ -72,6 +74,12 @@ class OfARun(unittest.TestCase):
             slipscale.Rum
 
 
+    def test_a_table_without_pandas(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            with self.assertRaisesRegex(Mistake, r"^run\.table\(\) needs pandas, which .* has not: install [^\n]*$"):
+                self.run_.table()
+
+
 class Started(unittest.TestCase):
     """With a stand-in for `slide`."""
 
@@ -82,7 +90,8 @@ class Started(unittest.TestCase):
 
     def program(self, text):
         path = self.folder / "slide"
-        path.write_text(f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(Path(__file__).parents[1])!r})\n{text}")
+        path.write_text(f"#!{sys.executable}\nimport sys\n"
+                        f"sys.path.insert(0, {str(Path(__file__).parents[1])!r})\n{text}")
         path.chmod(0o755)
         return path
 

@@ -22,7 +22,7 @@ bool Options::overruled(const std::string& name, const std::vector<std::string>&
   if (later == by.end()) return false;
   aside_.insert(name);
   effective_.erase(name);
-  notes_.push_back("note: -" + name + (own.place.empty() ? "" : " of " + own.place) + " " + why + " (" +
+  notes_.push_back("-" + name + (own.place.empty() ? "" : " of " + own.place) + " " + why + " (" +
                    origin(*later).place + "); it is set aside");
   return true;
 }

@@ -39,6 +39,10 @@ void print(const std::string& text) {
   std::fflush(stdout);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print("note: " + note + "\n");
+}
+
 std::string one_line(const std::string& text) {
   // Next line, line separator and paragraph separator in UTF-8.
   static constexpr std::array<std::string_view, 3> breaks{"\xC2\x85", "\xE2\x80\xA8", "\xE2\x80\xA9"};

@@ -1,8 +1,20 @@
 #include "process.hpp"
 
+#include <chrono>
 #include <cstdlib>
 
+#include "slipscale/base/program.hpp"
+
 namespace slipscale {
+namespace {
+
+const auto start = std::chrono::steady_clock::now();
+
+}  // namespace
+
+double seconds_since_start() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 void start_alone() {
   std::signal(SIGPIPE, SIG_IGN);

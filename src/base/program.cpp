@@ -13,6 +13,7 @@
 #include "names.hpp"
 #include "places_of_petsc.hpp"
 #include "process.hpp"
+#include "restart_options.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
@@ -38,7 +39,8 @@ void complain(const std::string& program, const std::string& text) {
   std::abort();
 }
 
-/// 0 when `work` returns, 2 when all ranks threw the same `UserError`, 1 for a `RunError`.
+/// 0 when `work` returns, 2 when all ranks threw the same `UserError`, 1 for a `RunError`,
+/// 3 for an `Interruption`.
 int guarded(const std::string& program, const std::function<void()>& work) {
   try {
     work();
@@ -49,6 +51,9 @@ int guarded(const std::string& program, const std::function<void()>& work) {
   } catch (const RunError& error) {
     if (is_root(MPI_COMM_WORLD)) complain(program, error.what());
     return 1;
+  } catch (const Interruption& stop) {
+    if (is_root(MPI_COMM_WORLD)) complain(program, stop.what());
+    return 3;
   } catch (const std::bad_alloc&) {
     abort_all(program, "out of memory; use more ranks or a coarser mesh");
   } catch (const std::exception& error) {
@@ -59,9 +64,9 @@ int guarded(const std::string& program, const std::function<void()>& work) {
 }
 
 /// The scenes one after the other, then the command line over them.
-std::vector<Written> read_all(const CommandLine& line) {
+std::vector<Written> read_later(const CommandLine& line) {
   std::vector<Written> options;
-  int order = 0;
+  int order = 1;
   for (const std::string& file : line.scene_files) {
     const auto scene = read_scene_text(file, read_on_all("-options_file_yaml", file), ++order);
     options.insert(options.end(), scene.begin(), scene.end());
@@ -76,6 +81,20 @@ std::vector<Written> read_all(const CommandLine& line) {
 
 bool is_petsc(const Program& program, const std::string& name) {
   return names::petsc_system(name) || names::petsc_object(name, program.solvers);
+}
+
+/// The scenes one after the other, then the command line over them; below all of them, what was in effect in
+/// the run that is gone on with.
+std::vector<Written> read_all(const Program& program, const CommandLine& line) {
+  std::vector<Written> options = read_later(line);
+  const auto restart = std::ranges::find(options, "restart", &Written::name);
+  if (!program.restart || restart == options.end()) return options;
+  const std::vector<Written> before = options_of_run(*program.restart, *restart);
+  std::vector<Written> own = options;
+  std::erase_if(own, [&](const Written& option) { return is_petsc(program, option.name); });
+  refuse_changes(before, own, program.restart->may_change, *restart->value);
+  options.insert(options.begin(), before.begin(), before.end());
+  return options;
 }
 
 /// What PETSc is to see of the command line: its own options, and its own files.
@@ -191,14 +210,14 @@ int answer(int argc, char** argv, const Program& program) {
   }
   check_petsc_values(line);
   for (const std::string& file : line.option_files) (void)read_on_all("-options_file", file);
-  return run_in_petsc(program, line, read_all(line));
+  return run_in_petsc(program, line, read_all(program, line));
 }
 
 }  // namespace
 
 void end_reading(const Options& options) {
   options.refuse_unread();
-  for (const std::string& note : options.notes()) print(note + "\n");
+  print_notes(options.notes());
 }
 
 int run_program(int argc, char** argv, const Program& program) {

@@ -42,6 +42,10 @@ std::string read_on_all(const std::string& option, const std::string& file) {
       fault = option + ": cannot read '" + file + "' (" + fault + "); give the path of a file";
   }
   throw_together(MPI_COMM_WORLD, fault);
+  return text_on_all(std::move(text));
+}
+
+std::string text_on_all(std::string text) {
   unsigned long long length = text.size();
   MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
   text.resize(length);

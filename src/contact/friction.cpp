@@ -26,7 +26,7 @@ Friction Coulomb::operator()(const FrictionDemand& demand, FrictionMemory&) cons
   return {std::copysign(limit, demand.trial), ContactStatus::slip};
 }
 
-Friction RegularizedInstantaneous::operator()(const FrictionDemand& demand, FrictionMemory& memory) const {
+Friction RegularisedInstantaneous::operator()(const FrictionDemand& demand, FrictionMemory& memory) const {
   Friction answer{demand.trial, ContactStatus::stick};
   if (std::abs(demand.trial) > coefficient * demand.pressure) {
     // A memory that opposes the present direction restarts from zero.
@@ -40,7 +40,7 @@ Friction RegularizedInstantaneous::operator()(const FrictionDemand& demand, Fric
   return answer;
 }
 
-Friction RegularizedStrength::operator()(const FrictionDemand& demand, FrictionMemory& memory) const {
+Friction RegularisedStrength::operator()(const FrictionDemand& demand, FrictionMemory& memory) const {
   const double strength = step.keep * memory.traction +
                           coefficient * (step.now * demand.pressure + step.before * memory.pressure);
   memory = {strength, demand.pressure};

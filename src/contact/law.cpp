@@ -85,12 +85,12 @@ FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
   if (choice.law == FrictionChoice::Law::coulomb || !relaxes) return Coulomb{mu};
   if (choice.by_slip_rate) {
     if (choice.stored_strength)
-      return SlipRate<RegularizedStrength>{mu, choice.length, choice.rate_reference, time_step};
-    return SlipRate<RegularizedInstantaneous>{mu, choice.length, choice.rate_reference, time_step};
+      return SlipRate<RegularisedStrength>{mu, choice.length, choice.rate_reference, time_step};
+    return SlipRate<RegularisedInstantaneous>{mu, choice.length, choice.rate_reference, time_step};
   }
   const Relaxation step = relaxation(time_step / choice.time);
-  if (choice.stored_strength) return RegularizedStrength{mu, step};
-  return RegularizedInstantaneous{mu, step};
+  if (choice.stored_strength) return RegularisedStrength{mu, step};
+  return RegularisedInstantaneous{mu, step};
 }
 
 std::string describe(const FrictionChoice& choice) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "slipscale/dynamics/model.hpp"
-#include "slipscale/solid/eigenvalue_bound.hpp"
 
 namespace slipscale {
 namespace {
@@ -97,15 +96,16 @@ double round_up_to_four_digits(double x) {
 }  // namespace
 
 FrequencyBounds largest_frequency(MPI_Comm comm, const Model& model) {
-  const double safe = element_eigenvalue_bound(comm, model.mesh, model.materials);
+  const CriticalCell critical = critical_cell(comm, model.mesh, model.materials);
+  const double safe = critical.eigenvalue;
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  if (!std::isfinite(safe)) return {unknown, unknown};
+  if (!std::isfinite(safe)) return {unknown, unknown, critical};
   // Ritz values converge from below, so the residual is added as a margin; the element bound is never
   // exceeded.
   const Ritz ritz = lanczos(comm, model, 300, 1e-4);
   const double sharp = std::min(safe, ritz.value + ritz.residual);
-  if (!std::isfinite(ritz.value + ritz.residual)) return {unknown, unknown};
-  return {round_up_to_four_digits(std::sqrt(sharp)), std::sqrt(safe)};
+  if (!std::isfinite(ritz.value + ritz.residual)) return {unknown, unknown, critical};
+  return {round_up_to_four_digits(std::sqrt(sharp)), std::sqrt(safe), critical};
 }
 
 }  // namespace slipscale

@@ -7,18 +7,26 @@ namespace {
 
 std::variant<PairStiffness<double>, PairStiffness<float>> assemble(const Mesh& mesh,
                                                                    const std::vector<Material>& materials,
-                                                                   Model::Storage storage) {
-  if (storage == Model::Storage::single) return PairStiffness<float>(mesh, materials);
-  return PairStiffness<double>(mesh, materials);
+                                                                   Model::Storage storage,
+                                                                   const StiffnessKernel& kernel) {
+  if (storage == Model::Storage::single) return PairStiffness<float>(mesh, materials, kernel);
+  return PairStiffness<double>(mesh, materials, kernel);
 }
 
 }  // namespace
 
-Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage)
+Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage, const StiffnessKernel& how)
     : mesh(body),
+      kernel(how),
       materials(std::move(regions)),
       mass(lumped_mass(body, materials)),
-      stiffness(assemble(body, materials, storage)) {}
+      stiffness(assemble(body, materials, storage, how)) {}
+
+double Model::repeating(MPI_Comm comm) const {
+  auto nodes = static_cast<double>(std::visit([](const auto& each) { return each.repeating(); }, stiffness));
+  MPI_Allreduce(MPI_IN_PLACE, &nodes, 1, MPI_DOUBLE, MPI_SUM, comm);
+  return nodes / static_cast<double>(mesh.nodes.total);
+}
 
 NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts) {
   const auto ghosts = static_cast<PetscInt>(with_ghosts ? nodes.ghosts.size() : 0);

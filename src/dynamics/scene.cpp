@@ -64,6 +64,12 @@ Schema scene_schema() {
        "boundary where the load and the global friction are measured; `top` when the mesh has one"},
       {"stiffness_storage", Kind::text, "", "double", range::one_of({"double", "single"}),
        "precision in which the stiffness is stored; arithmetic is always double"},
+      {"stiffness_kernel", Kind::text, "", "runs", range::one_of({"runs", "pairs"}),
+       "runs: successive nodes whose rows repeat are summed together; pairs: every pair of nodes is visited, "
+       "for comparison; the same bits"},
+      {"stiffness_instructions", Kind::text, "", "auto", range::one_of({"auto", "base", "avx2", "avx512"}),
+       "vector instructions of the inner loops: auto takes the widest that the processor has, the others are "
+       "for comparison; the same bits"},
   };
   return own + boundary_schema() + initial_schema() + surface_schema() + friction_schema();
 }
@@ -114,6 +120,20 @@ Model::Storage read_storage(const Options& options) {
   return options.text("stiffness_storage") == "single" ? Model::Storage::single : Model::Storage::full;
 }
 
+StiffnessKernel read_kernel(const Options& options) {
+  StiffnessKernel kernel;
+  kernel.runs = options.text("stiffness_kernel") == "runs";
+  const std::string wanted = options.text("stiffness_instructions");
+  if (wanted == "auto") return kernel;
+  const Instructions widest = kernel.instructions;
+  while (name_of(kernel.instructions) != wanted && kernel.instructions != Instructions::base)
+    kernel.instructions = static_cast<Instructions>(static_cast<int>(kernel.instructions) - 1);
+  if (name_of(kernel.instructions) != wanted)
+    throw UserError("-stiffness_instructions is " + wanted + ", but this processor has no more than " +
+                    name_of(widest) + "; choose that, a lesser kind or auto");
+  return kernel;
+}
+
 TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time) {
   TimeStep choice;
   choice.frequency = largest_frequency(comm, model);
@@ -146,6 +166,38 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
   return choice;
 }
 
+std::string describe_kernel(MPI_Comm comm, const Model& model) {
+  const double repeating = model.repeating(comm);
+  if (!model.kernel.runs) return "stiffness: every pair of nodes is visited\n";
+  return format(
+      "stiffness: the rows of {:.1f} % of the nodes repeat and are summed together ({} instructions)\n",
+      100 * repeating, name_of(model.kernel.instructions));
+}
+
+namespace {
+
+/// What sets the step, what the mesh loses by it, and what helps.
+std::string describe(const CriticalCell& cell, const Mesh& mesh) {
+  if (!std::isfinite(cell.eigenvalue)) return "";
+  constexpr double even = 0.8;
+  std::string text = format(
+      "the step is set by cell {} at ({}, {}) in region '{}', angles {:.0f} to {:.0f} degrees: "
+      "{:.2f} of the median cell's",
+      cell.number, engineering(cell.centre[0], "m"), engineering(cell.centre[1], "m"),
+      mesh.regions[cell.region].name, cell.smallest_angle, cell.largest_angle, cell.of_median);
+  if (cell.of_median >= even) return text + "; the cells are even\n";
+  if (cell.of_median_in_region >= even)
+    return text + format(
+                      ", but {:.2f} of the median one's in its region: by its material or its finer cells; "
+                      "cells {:.1f} times as large there would cost no step\n",
+                      cell.of_median_in_region, 1 / cell.of_median);
+  return text +
+         format("; more even cells, as of morphology -cell grid, would need up to {:.1f} times fewer steps\n",
+                1 / cell.of_median);
+}
+
+}  // namespace
+
 std::string describe(const TimeStep& step, const Model& model) {
   const Mesh& mesh = model.mesh;
   const Vector2 size{mesh.upper[0] - mesh.lower[0], mesh.upper[1] - mesh.lower[1]};
@@ -162,7 +214,7 @@ std::string describe(const TimeStep& step, const Model& model) {
           engineering(step.safe_limit, "s") +
           " (largest element); step used: " + engineering(step.step, "s") +
           format(" ({:.3f} of the limit), {} steps\n", step.step / step.limit, step.count);
-  return text;
+  return text + describe(step.frequency.critical, mesh);
 }
 
 }  // namespace slipscale

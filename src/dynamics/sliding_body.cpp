@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slipscale/base/log.hpp"
+#include "slipscale/base/order_free_sum.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -57,8 +58,6 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       law_(friction_law(scene.friction, time_step)),
       start_law_(friction_law(scene.friction, 0)),
       physics_(bulk_physics(scene)),
-      free_motion_(free_motion_for(physics_)),
-      observed_free_motion_(free_motion_for(keeping_acceleration(physics_))),
       ledger_(scene.beta2, time_step) {
   set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
@@ -67,11 +66,13 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
   if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
   if (scene_.surface) set_contact_nodes();
+  ledger_.start(physics_, model.mesh.nodes.owned, boundary_.size(), contact_.size(),
+                static_cast<int>(straight_->size()));
   start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
-  for (int i = 0; i < model.mesh.nodes.owned; ++i)
-    start_gravity_ += model.mass[i] * (scene_.body_acceleration[0] * u_.data()[i][0] +
-                                       scene_.body_acceleration[1] * u_.data()[i][1]);
+  std::vector<double> work;
+  for (int i = 0; i < model.mesh.nodes.owned; ++i) work.push_back(gravity_work(i, u_.data()[i]));
+  start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 
 /// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt, where the body
@@ -120,30 +121,49 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-template <BulkPhysics physics>
-void SlidingBody::free_motion(const StepCoefficients& step) {
+void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
   const BulkArrays arrays{
       inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
-  BulkSums sums;
-  const FreeMotion<physics> move(arrays, step, scene_.damping, scene_.body_acceleration, sums);
-  std::visit([&](const auto& pairs) { pairs.multiply(u_.data(), force_.data(), move); }, model_.stiffness);
-  bulk_ = sums;
-}
-
-template <std::size_t... Index>
-auto SlidingBody::free_motion_table(std::index_sequence<Index...>) {
-  return std::array<FreeMotionStep, sizeof...(Index)>{&SlidingBody::free_motion<BulkPhysics{
-      (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0}>...};
-}
-
-SlidingBody::FreeMotionStep SlidingBody::free_motion_for(const BulkPhysics& physics) {
-  static const auto table = free_motion_table(std::make_index_sequence<16>());
-  return table[(physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
-               (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u)];
+  const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
+                        scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
+  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
+             model_.stiffness);
 }
 
 NodalState SlidingBody::state(bool with_acceleration) const {
   return {u_.data(), w_.data(), with_acceleration ? a_.data() : nullptr};
+}
+
+/// What the step must not lose of the one before.
+void SlidingBody::remember(bool observed, const NodalState& moving) {
+  static const LogEvent event("BoundaryMemory");
+  const LogEvent::Scope scope(event);
+  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
+  boundary_.remember(moving, force_.data());
+  if (physics_.keeps_force()) std::swap(force_, previous_force_);
+}
+
+void SlidingBody::touch_surface(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Contact");
+  const LogEvent::Scope scope(event);
+  const double now = static_cast<double>(step_) * time_step_,
+               next = static_cast<double>(step_ + 1) * time_step_;
+  surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
+  const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
+  std::visit(
+      [&](const auto& law) {
+        contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
+      },
+      first ? start_law_ : law_);
+}
+
+void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving) {
+  static const LogEvent event("Ledger");
+  const LogEvent::Scope scope(event);
+  ledger_.add(boundary_, contact_, moving, surface_travel_);
+  if (!straight_->empty()) ledger_.add_plates(*straight_);
+  if (physics_.keeps_force())
+    ledger_.correct_bulk(physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(), first);
 }
 
 void SlidingBody::advance(bool observed) {
@@ -155,39 +175,38 @@ void SlidingBody::advance(bool observed) {
       first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
   const NodalState moving = state(observed || physics_.keeps_acceleration);
 
-  u_.end_update();
-  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
-  boundary_.remember(moving, force_.data());
-  if (physics_.keeps_force()) std::swap(force_, previous_force_);
-
   {
-    static const LogEvent event("FreeMotion");
+    static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
-    (this->*(observed ? observed_free_motion_ : free_motion_))(step);
+    u_.end_update();
   }
-  if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
-  if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
-  for (const auto& side : *straight_)
-    side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
-  if (scene_.surface) {
-    surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
-    const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
-    std::visit(
-        [&](const auto& law) {
-          contact_.enforce(law, contact, boundary_.displacement.data(), boundary_.support.data(), moving);
-        },
-        first ? start_law_ : law_);
+  remember(observed, moving);
+  {
+    static const LogEvent event("StiffnessMotion");
+    const LogEvent::Scope scope(event);
+    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
   }
-  u_.begin_update();
-
-  ledger_.add(boundary_, contact_, moving, surface_travel_);
-  if (!straight_->empty()) ledger_.add_plates(*straight_);
-  if (physics_.keeps_force())
-    ledger_.add_bulk(bulk_, physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(),
-                     first);
+  {
+    static const LogEvent event("LoadsSupports");
+    const LogEvent::Scope scope(event);
+    if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
+    if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
+    for (const auto& side : *straight_)
+      side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
+  }
+  if (scene_.surface) touch_surface(first, step, moving);
+  {
+    static const LogEvent event("HaloBegin");
+    const LogEvent::Scope scope(event);
+    u_.begin_update();
+  }
+  add_to_ledger(first, step, moving);
   if (observed) find_velocity(step);
   ++step_;
-  if (first) start_energy_ = local_energy().kinetic + local_energy().strain;
+  if (first) {
+    const Energy start = energy();
+    start_energy_ = start.kinetic + start.strain;
+  }
 }
 
 void SlidingBody::find_velocity(const StepCoefficients& step) {
@@ -204,50 +223,71 @@ Vector2 SlidingBody::force_on_support(int slot) const {
   return {-(now[0] + lag * (now[0] - before[0])), -(now[1] + lag * (now[1] - before[1]))};
 }
 
-Energy SlidingBody::local_energy() const {
-  Energy energy = ledger_.works();
+double SlidingBody::gravity_work(int node, const Vector2& displacement) const {
+  const Vector2& gravity = scene_.body_acceleration;
+  return model_.mass[node] * (gravity[0] * displacement[0] + gravity[1] * displacement[1]);
+}
+
+/// What this rank adds to ½vᵀMv, to the scheme's correction of it (Δt²β2/4) aᵀMa, to ½uᵀKu and to the work of
+/// gravity, node by node, J/m.
+SlidingBody::BulkTerms SlidingBody::bulk_terms() const {
   const double correction = 0.25 * time_step_ * time_step_ * scene_.beta2;
-  for (int i = 0; i < model_.mesh.nodes.owned; ++i)
-    for (int axis = 0; axis < 2; ++axis) {
-      const double v = v_.data()[i][axis], a = a_.data()[i][axis], m = model_.mass[i];
-      energy.kinetic += 0.5 * m * v * v - correction * m * a * a;
-      energy.flowed += 0.5 * m * v * v + correction * m * a * a;  // the two may cancel to rounding
-      energy.strain += 0.5 * kept_[i][axis] * force_[i][axis];
-      energy.body_force += m * scene_.body_acceleration[axis] * kept_[i][axis];
-    }
-  energy.body_force -= start_gravity_;
-  for (const auto& side : *straight_) {
-    const auto [velocity, acceleration] = side->energies();
-    energy.kinetic += velocity - 2 * correction * acceleration;
-    energy.flowed += velocity + 2 * correction * acceleration;
+  const auto owned = static_cast<std::size_t>(model_.mesh.nodes.owned), moving = owned + straight_->size();
+  const bool gravity = scene_.body_acceleration != Vector2{};
+  terms_.resize(2 * moving + owned + (gravity ? owned : 0));
+  const std::span all(terms_);
+  const auto velocity = all.first(moving), acceleration = all.subspan(moving, moving),
+             strain = all.subspan(2 * moving, owned), work = all.subspan(2 * moving + owned);
+  for (std::size_t i = 0; i < owned; ++i) {
+    const Vector2 &v = v_.data()[i], &a = a_.data()[i], &u = kept_[i], &force = force_[i];
+    const double m = model_.mass[i];
+    velocity[i] = 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+    acceleration[i] = correction * m * (a[0] * a[0] + a[1] * a[1]);
+    strain[i] = 0.5 * (u[0] * force[0] + u[1] * force[1]);
   }
-  return energy;
+  for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), kept_[i]);
+  std::size_t plate = owned;
+  for (const auto& side : *straight_) {
+    const auto energies = side->energies();
+    velocity[plate] = energies[0];
+    acceleration[plate++] = 2 * correction * energies[1];
+  }
+  return {velocity, acceleration, strain, work};
+}
+
+/// Not less than the number of terms of any sum that are not zero.
+std::int64_t SlidingBody::largest_count() const {
+  return model_.mesh.nodes.total + static_cast<std::int64_t>(straight_->size());
 }
 
 Energy SlidingBody::energy() const {
-  Energy energy = local_energy();
-  double start = start_energy_;
-  static_assert(sizeof(Energy) % sizeof(double) == 0);
-  MPI_Allreduce(MPI_IN_PLACE, &energy, sizeof(Energy) / sizeof(double), MPI_DOUBLE, MPI_SUM, comm_);
-  MPI_Allreduce(MPI_IN_PLACE, &start, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  close_balance(energy, start);
+  const BulkTerms bulk = bulk_terms();
+  const auto works = ledger_.works();
+  std::vector<std::span<const double>> lists(bulk.begin(), bulk.end());
+  for (const auto& work : works) lists.push_back(work.list);
+  const auto sums = order_free_sums(comm_, lists, largest_count());
+  Energy energy;
+  energy.kinetic = sums[0] - sums[1];
+  energy.flowed = sums[0] + sums[1];  // the two may cancel to rounding
+  energy.strain = sums[2];
+  energy.body_force = sums[3] - start_gravity_;
+  for (std::size_t k = 0; k < works.size(); ++k) energy.*works[k].energy += sums[bulk.size() + k];
+  close_balance(energy, start_energy_);
   return energy;
 }
 
 Momentum SlidingBody::momentum() const {
   const Mesh& mesh = model_.mesh;
   const Vector2 middle{0.5 * (mesh.lower[0] + mesh.upper[0]), 0.5 * (mesh.lower[1] + mesh.upper[1])};
-  Momentum sum;
+  std::vector<double> mass = model_.mass, x, y, angular;
   for (int i = 0; i < mesh.nodes.owned; ++i) {
-    const Vector2 &v = v_.data()[i], &x = mesh.nodes.position[i];
-    const double m = model_.mass[i];
-    sum.mass += m;
-    sum.linear = {sum.linear[0] + m * v[0], sum.linear[1] + m * v[1]};
-    sum.angular += m * ((x[0] - middle[0]) * v[1] - (x[1] - middle[1]) * v[0]);
+    const Vector2 &v = v_.data()[i], &place = mesh.nodes.position[i];
+    x.push_back(mass[i] * v[0]);
+    y.push_back(mass[i] * v[1]);
+    angular.push_back(mass[i] * ((place[0] - middle[0]) * v[1] - (place[1] - middle[1]) * v[0]));
   }
-  static_assert(sizeof(Momentum) == 4 * sizeof(double));
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 4, MPI_DOUBLE, MPI_SUM, comm_);
-  return sum;
+  const auto sums = order_free_sums(comm_, {mass, x, y, angular}, mesh.nodes.total);
+  return {sums[0], {sums[1], sums[2]}, sums[3]};
 }
 
 bool SlidingBody::has_touched() const {

@@ -87,8 +87,9 @@ StraightSide::StraightSide(MPI_Comm comm, const Mesh& mesh, const BoundaryCondit
   inverse_ = inverse({mass[0] + own_[0], mass[1], mass[2] + own_[1]}, tilts_);
   for (std::size_t k = 0; k < members_.size(); ++k)
     mine_[k] = nodes.mass[members_[k].slot] * predictor[nodes.node[members_[k].slot]][1];
-  moves_ = product(of_nodes, gather(mine_));
-  for (const Member& m : members_) predictor[nodes.node[m.slot]][1] = moves_[0] + moves_[1] * m.arm;
+  motion_.moves = product(of_nodes, gather(mine_));
+  for (const Member& m : members_)
+    predictor[nodes.node[m.slot]][1] = motion_.moves[0] + motion_.moves[1] * m.arm;
 }
 
 StraightSide::~StraightSide() {
@@ -119,18 +120,18 @@ void StraightSide::apply(double time, const StepCoefficients& step, const Dampin
   }
   PlateMotion acting = gather(mine_);
   acting[0] += force_ * cosine_ramp(time, ramp_);
-  const PlateMotion a = product(inverse_, acting), old_a = acceleration_, past = increment_;
-  before_ = place_;
+  const PlateMotion a = product(inverse_, acting), old_a = motion_.acceleration, past = motion_.increment;
+  motion_.before = motion_.place;
   for (std::size_t q = 0; q < a.size(); ++q) {
-    velocity_[q] = moves_[q] + step.velocity * a[q];
-    increment_[q] = displacement_increment(step, moves_[q], a[q]);
-    place_[q] += increment_[q];
-    moves_[q] = next_predictor(step, moves_[q], a[q]);
+    motion_.velocity[q] = motion_.moves[q] + step.velocity * a[q];
+    motion_.increment[q] = displacement_increment(step, motion_.moves[q], a[q]);
+    motion_.place[q] += motion_.increment[q];
+    motion_.moves[q] = next_predictor(step, motion_.moves[q], a[q]);
   }
-  acceleration_ = a;
+  motion_.acceleration = a;
   for (const Member& m : members_) {
     const int i = nodes.node[m.slot];
-    const double target = m.initial + (place_[0] + place_[1] * m.arm);
+    const double target = m.initial + (motion_.place[0] + motion_.place[1] * m.arm);
     const double missing = (target - state.displacement[i][1]) / step.displacement;
     accelerate(state, step, i, 1, missing);
     state.displacement[i][1] = target;
@@ -139,17 +140,29 @@ void StraightSide::apply(double time, const StepCoefficients& step, const Dampin
   inertia_ = {};
   for (std::size_t q = 0; counts_ && q < a.size(); ++q) {
     inertia_.past += own_[q] * a[q] * past[q];
-    inertia_.next += own_[q] * a[q] * increment_[q];
-    if (started_) inertia_.change += own_[q] * (a[q] - old_a[q]) * (a[q] - old_a[q]);
+    inertia_.next += own_[q] * a[q] * motion_.increment[q];
+    if (motion_.started != 0) inertia_.change += own_[q] * (a[q] - old_a[q]) * (a[q] - old_a[q]);
   }
-  started_ = true;
+  motion_.started = 1;
+}
+
+StateGroup StraightSide::state() {
+  StateGroup group{"plate_" + boundary_, {}, 0, counts_, {}};
+  if (comm_ != MPI_COMM_NULL) group.keys = {0};
+  static_assert(sizeof(Motion) == 13 * sizeof(double));
+  group.arrays = {
+      {"motion", "1",
+       "place after and before the last step, increment, predictor, velocity and acceleration, each "
+       "of the middle (m) and the tilt (rad); 1 when a step was made",
+       13, motion_.place.data()}};
+  return group;
 }
 
 std::array<double, 2> StraightSide::energies() const {
   std::array<double, 2> energies{};
   for (std::size_t q = 0; counts_ && q < own_.size(); ++q) {
-    energies[0] += 0.5 * own_[q] * velocity_[q] * velocity_[q];
-    energies[1] += 0.5 * own_[q] * acceleration_[q] * acceleration_[q];
+    energies[0] += 0.5 * own_[q] * motion_.velocity[q] * motion_.velocity[q];
+    energies[1] += 0.5 * own_[q] * motion_.acceleration[q] * motion_.acceleration[q];
   }
   return energies;
 }

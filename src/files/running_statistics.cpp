@@ -94,6 +94,15 @@ FieldStatistics RunningStatistics::result() const {
   return found;
 }
 
+std::vector<StateArray> RunningStatistics::state(const std::string& name, const std::string& units) {
+  const auto tails = static_cast<int>(width * high_.keep());
+  return {{name + "_mean", units, "mean so far; xx, yy, xy", 3, places_ > 0 ? mean_[0].data() : nullptr},
+          {name + "_products", "(" + units + ")^2", "sums of products of the deviations from it", 6,
+           places_ > 0 ? products_[0].data() : nullptr},
+          {name + "_largest", units, "heaps of the largest samples; xx, yy, xy", tails, high_.values()},
+          {name + "_smallest", units, "the same of the smallest, with changed sign", tails, low_.values()}};
+}
+
 double RunningStatistics::bytes(std::size_t samples, double quantile) {
   const double tails = 2.0 * width * static_cast<double>(tail(samples, quantile));
   return sizeof(double) * (width + pairs.size() + tails);

@@ -131,7 +131,8 @@ CellSolution solve_cell(MPI_Comm comm, const Mesh& mesh, const std::vector<Mater
   solution.boundary = boundary;
   solution.set_up_seconds = solver.set_up_seconds();
   solution.solver = solver.description();
-  solution.idle_options = solver.idle_options();
+  for (const std::string& idle : solver.idle_options())
+    solution.notes.push_back(idle + " is idle: the cell is solved directly (" + solution.solver + ")");
   solution.locking = locking_regions(comm, mesh, materials);
   solution.unknowns = 2 * mesh.nodes.total;
   CellMeans means(comm, system, outline);

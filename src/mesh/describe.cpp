@@ -30,15 +30,14 @@ double Mesh::area() const {
 }
 
 std::string describe(const Mesh& mesh, const std::vector<std::string>& region_materials) {
-  std::string text;
-  for (const std::string& note : mesh.notes) text += note + "\n";
-  text += format("mesh {}: {} nodes, {} cells, x {:g} to {:g} m, y {:g} to {:g} m{}\n", mesh.file,
-                 static_cast<long long>(mesh.nodes.total), static_cast<long long>(mesh.cells.total),
-                 mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1],
-                 mesh.periodic[0] && mesh.periodic[1] ? ", periodic in x and y"
-                 : mesh.periodic[0]                   ? ", periodic in x"
-                 : mesh.periodic[1]                   ? ", periodic in y"
-                                                      : "");
+  std::string text =
+      format("mesh {}: {} nodes, {} cells, x {:g} to {:g} m, y {:g} to {:g} m{}\n", mesh.file,
+             static_cast<long long>(mesh.nodes.total), static_cast<long long>(mesh.cells.total),
+             mesh.lower[0], mesh.upper[0], mesh.lower[1], mesh.upper[1],
+             mesh.periodic[0] && mesh.periodic[1] ? ", periodic in x and y"
+             : mesh.periodic[0]                   ? ", periodic in x"
+             : mesh.periodic[1]                   ? ", periodic in y"
+                                                  : "");
   std::vector<std::vector<std::string>> rows{{"name", "tag", "cells/edges", "size", "material"}};
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const Region& region = mesh.regions[r];

@@ -67,6 +67,7 @@ void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mes
   mesh.lower = whole.lower;
   mesh.upper = whole.upper;
   mesh.shortest_edge = whole.shortest_edge;
+  mesh.edge_rounding = whole.edge_rounding;
   mesh.nodes.total = whole.node_count;
   mesh.cells.total = whole.cell_count;
   petsc(DMViewFromOptions(mesh.dm, nullptr, "-dm_view_distributed"));

@@ -4,17 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "slipscale/base/checksum.hpp"
 #include "slipscale/base/error.hpp"
 
 namespace slipscale::mesh_stages {
 namespace {
-
-/// FNV-1a, 64 bit (Fowler, Noll, Vo): enough to tell two meshes apart, not a defence against anyone.
-std::uint64_t fnv1a(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ull;
-  return hash;
-}
 
 std::string bytes_of(const std::string& path) {
   std::error_code none;
@@ -90,7 +84,9 @@ GmshFile read_gmsh(const std::string& path) {
   try {
     GmshStream stream(bytes);
     read_format(stream, path, bytes);
-    return {fnv1a(bytes), read_gmsh_mesh(stream)};
+    Checksum sum;
+    sum.add(bytes.data(), bytes.size());
+    return {sum.value(), read_gmsh_mesh(stream)};
   } catch (const GmshFault& fault) {
     throw UserError(sentence(path, fault.what()));
   }

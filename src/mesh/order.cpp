@@ -41,6 +41,28 @@ Rows node_graph(const std::vector<CellVertices>& cells, const Rows& around, Pets
   return graph;
 }
 
+/// The same of the lines that the nodes lie on: lines that share a cell.
+Rows line_graph(const Rows& nodes, const Rows& lines) {
+  const auto count = static_cast<PetscInt>(lines.start.size()) - 1;
+  std::vector<PetscInt> line_of(lines.entries.size()), last_seen_by(static_cast<std::size_t>(count), -1);
+  for (PetscInt line = 0; line < count; ++line)
+    for (const PetscInt node : lines[line]) line_of[node] = line;
+  Rows graph;
+  graph.start.push_back(0);
+  for (PetscInt line = 0; line < count; ++line) {
+    for (const PetscInt node : lines[line])
+      for (const PetscInt other : nodes[node]) {
+        const PetscInt beside = line_of[other];
+        if (last_seen_by[beside] == line) continue;
+        last_seen_by[beside] = line;
+        graph.entries.push_back(beside);
+      }
+    std::sort(graph.entries.begin() + graph.start.back(), graph.entries.end());
+    graph.start.push_back(static_cast<PetscInt>(graph.entries.size()));
+  }
+  return graph;
+}
+
 /// Reverse Cuthill-McKee: neighbours get close numbers, so a sweep over the nodes stays in the cache.
 std::vector<PetscInt> reverse_cuthill_mckee(Rows& graph, PetscInt node_count) {
   std::vector<PetscScalar> values(graph.entries.size(), 1.0);
@@ -55,6 +77,20 @@ std::vector<PetscInt> reverse_cuthill_mckee(Rows& graph, PetscInt node_count) {
   for (PetscInt k = 0; k < node_count; ++k) new_of_old[old_of_new[k]] = k;
   petsc(ISRestoreIndices(rows, &old_of_new));
   return new_of_old;
+}
+
+/// The nodes of a line one after the other, the lines as their graph orders them: along a line of a grid
+/// nodes have their neighbours at the same distances.
+std::vector<PetscInt> number_by_lines(const Rows& graph, const Rows& lines) {
+  Rows between = line_graph(graph, lines);
+  const auto count = static_cast<PetscInt>(lines.start.size()) - 1;
+  const std::vector<PetscInt> place = reverse_cuthill_mckee(between, count);
+  std::vector<PetscInt> line_at(place.size()), number(lines.entries.size());
+  for (PetscInt line = 0; line < count; ++line) line_at[place[line]] = line;
+  PetscInt next = 0;
+  for (const PetscInt line : line_at)
+    for (const PetscInt node : lines[line]) number[node] = next++;
+  return number;
 }
 
 /// The cells by their node numbers, the lowest first: sorted within bins of one lowest number each.
@@ -85,7 +121,9 @@ std::vector<PetscInt> number_cells(std::vector<CellVertices> cells,
 
 void number_whole(Whole& whole) {
   Rows graph = node_graph(whole.plain.cells, whole.around, whole.node_count);
-  whole.node_number = reverse_cuthill_mckee(graph, whole.node_count);
+  const Rows lines = grid_lines(whole.plain, whole.node_count, whole.periodic);
+  whole.node_number =
+      lines.entries.empty() ? reverse_cuthill_mckee(graph, whole.node_count) : number_by_lines(graph, lines);
   whole.cell_number = number_cells(whole.plain.cells, whole.node_number);
 }
 

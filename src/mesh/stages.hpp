@@ -22,6 +22,7 @@ struct Whole {
   std::array<bool, 2> periodic{};
   Vector2 lower{}, upper{};
   double shortest_edge = 0;
+  EdgeRounding edge_rounding;
   std::vector<PetscInt> node_number, cell_number;  ///< rank 0: whole-mesh number of each vertex and cell
   PetscInt node_count = 0, cell_count = 0;
   std::uint64_t checksum = 0;
@@ -38,8 +39,19 @@ void check_torus(const PlainMesh& mesh);
 /// Checks cells and groups and measures them. Throws GmshFault. Rank 0.
 void survey(Whole& whole);
 
-/// Numbers the nodes (reverse Cuthill-McKee) and the cells (by their lowest nodes). Rank 0.
+/// The lines of the grid that the mesh has, along x or along y, whichever are fewer: nodes that one comes to
+/// by the edge that runs most nearly along the axis. Every vertex is in one line, alone where it lies in
+/// none. Nothing where less than half of the vertices lie on lines: the mesh is no grid. A grid that closes
+/// across the lines has none, since its first line would be beside its last. Rank 0.
+Rows grid_lines(const PlainMesh& mesh, PetscInt vertices, const std::array<bool, 2>& periodic);
+
+/// Numbers the nodes (by the lines of the grid, and these by reverse Cuthill-McKee; where there is no grid,
+/// by that alone) and the cells (by their lowest nodes). Rank 0.
 void number_whole(Whole& whole);
+
+/// How to round the edges of cells, so that edges that were meant to be equal are. Rank 0.
+EdgeRounding edge_rounding(const PlainMesh& mesh, const Vector2& lower, const Vector2& upper,
+                           double shortest_edge);
 
 /// Gives the DMPlex of the whole mesh the partition that it shall be cut by. Collective.
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole);

@@ -50,7 +50,7 @@ void load(const MeshSource& source, Whole& whole) {
   if (file.mesh.is_of_higher_order)
     whole.notes.emplace_back("cells of higher order are taken as straight ones between their corners");
   note_turned(turn_clockwise_surfaces(file.mesh), whole.notes);
-  for (std::string& note : whole.notes) note = "note: mesh '" + source.file + "': " + note;
+  for (std::string& note : whole.notes) note = "mesh '" + source.file + "': " + note;
   Periods periods;
   if (file.mesh.is_periodic && !source.cut) periods = periods_of(file.mesh);
   whole.plain = plain_mesh(file.mesh, periods.original, whole.regions, whole.boundaries);
@@ -61,6 +61,7 @@ void load(const MeshSource& source, Whole& whole) {
   survey(whole);
   whole.around = cells_around(whole.plain.cells, whole.node_count);
   check_soundness(whole.plain, whole.around, periods.shifts);
+  whole.edge_rounding = edge_rounding(whole.plain, whole.lower, whole.upper, whole.shortest_edge);
 }
 
 /// The sentence about what is wrong with the mesh, or nothing.
@@ -116,6 +117,7 @@ void tell_sizes(MPI_Comm comm, Whole& whole) {
     for (auto& b : whole.boundaries)
       visit(b.edge_count), visit(b.length), visit(b.interior), visit(b.normal[0]), visit(b.normal[1]);
     for (int k = 0; k < 2; ++k) visit(whole.periodic[k]), visit(whole.lower[k]), visit(whole.upper[k]);
+    visit(whole.edge_rounding.quantum), visit(whole.edge_rounding.phase);
     visit(whole.shortest_edge), visit(whole.node_count), visit(whole.cell_count);
   };
   exchange([&](auto& value) { numbers.push_back(static_cast<double>(value)); });

@@ -39,8 +39,9 @@ void refuse_too_large(const std::vector<Family>& families, std::size_t k, const 
 }
 
 /// Largest part of the plane that inclusions of the family can fill with the gap between them. Equal discs:
-/// the hexagonal array; equal ellipses fill no more than that (Fejes Tóth 1950). In general, half the gap
-/// around each inclusion belongs to it. Of several families, the small ones may lie between the large ones.
+/// the hexagonal array; equal ellipses fill no more than that (Fejes Tóth, Acta Sci. Math. 12 (1950) 62). In
+/// general, half the gap around each inclusion belongs to it. Of several families, the small ones may lie
+/// between the large ones.
 double densest(const Family& family, bool alone, double gap) {
   const Inclusion mean = shaped(family, 0, family.diameter, 0);
   constexpr double pi = std::numbers::pi, hexagonal = pi / (2 * std::numbers::sqrt3);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "sides.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/morphology/drawing.hpp"
 
 namespace slipscale {
@@ -196,17 +197,7 @@ double correction(const CutInclusion& cut, double wanted, double scale) {
 
 }  // namespace
 
-double polygon_area(const std::vector<Vector2>& corners) {
-  double twice = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    // Around the first corner, so that a small polygon far from the origin loses no digits.
-    const Vector2 a{corners[i][0] - corners[0][0], corners[i][1] - corners[0][1]};
-    const Vector2& next = corners[(i + 1) % corners.size()];
-    const Vector2 b{next[0] - corners[0][0], next[1] - corners[0][1]};
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return 0.5 * twice;
-}
+double polygon_area(const std::vector<Vector2>& corners) { return cell_area(corners); }
 
 std::vector<Piece> polygons(const std::vector<Inclusion>& inclusions, const Room& room, double length) {
   std::vector<Piece> pieces;

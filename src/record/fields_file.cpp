@@ -89,8 +89,6 @@ FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder
 
 FieldsFile::~FieldsFile() = default;
 
-std::size_t FieldsFile::frames() const { return xdmf_->times->size(); }
-
 /// Refuses a file that lacks frames, or whose frames do not hold what this one would write.
 void FieldsFile::check_frames(std::size_t frames) const {
   file_->examine([&](hid_t file) {
@@ -142,6 +140,8 @@ void FieldsFile::cut_back() {
   file_->end_changes();
   to_cut_ = false;
 }
+
+std::size_t FieldsFile::frames() const { return xdmf_->times->size(); }
 
 double FieldsFile::bytes(double frames) const {
   return fields_bytes(frames, image_.points().total(), image_.cells().total(), quantities_);

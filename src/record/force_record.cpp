@@ -10,6 +10,7 @@ namespace slipscale {
 namespace {
 
 constexpr long most_steps = 1L << 17;
+constexpr long largest_key = 1L << 30;  ///< far more than the steps that are recorded, and a PetscInt
 
 }  // namespace
 
@@ -33,6 +34,22 @@ void ForceRecord::record(long n) {
   }
   sums_[static_cast<std::size_t>(n - first_)] = sum;
 }
+
+StateGroup ForceRecord::state(long n) {
+  carried_ = gather();
+  if (n < first_) carried_.clear();
+  carried_.resize(std::min(carried_.size(), static_cast<std::size_t>(std::max(0L, n + 1 - first_))));
+  StateGroup group{"force_record",
+                   {},
+                   0,
+                   true,
+                   {{"force", "N/m", "tangential, at the measured boundary", 1, carried_.data()}}};
+  for (std::size_t k = 0; k < carried_.size(); ++k)
+    group.keys.push_back(static_cast<PetscInt>((first_ + static_cast<long>(k)) % largest_key));
+  return group;
+}
+
+void ForceRecord::resume() { std::copy(carried_.begin(), carried_.end(), sums_.begin()); }
 
 std::vector<double> ForceRecord::gather() const {
   std::vector<double> all(is_root(body_.comm()) ? sums_.size() : 0);

@@ -11,7 +11,7 @@ constexpr double between_batches = 0.5;  // s
 }  // namespace
 
 HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-                         double rows, std::optional<SeriesFile::Continue> continued)
+                         bool momentum, double rows, std::optional<SeriesFile::Continue> continued)
     : file_(path, between_batches, rows, continued) {
   time_ = file_.add("/time", {}, "s", "time of the row, t_n = n times the step");
   step_ = file_.add("/step", {}, "1", "number of the step, n");
@@ -37,6 +37,7 @@ HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const
                   file_.add("/contact/open", {}, "1", "part of it that is open")};
   }
   add_energy();
+  if (momentum) add_momentum(body);
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::string group = "/points/" + std::to_string(k) + "/";
     file_.constant(group + "x", points[k].data(), {2}, "m", "where the point is in the undeformed body");
@@ -49,6 +50,25 @@ HistoryFile::HistoryFile(const std::string& path, const SlidingBody& body, const
 void HistoryFile::add_energy() {
   for (const EnergyTerm& term : energy_terms)
     energy_.push_back(file_.add(std::string("/energy/") + term.name, {}, "J/m", term.description));
+}
+
+void HistoryFile::add_momentum(const SlidingBody& body) {
+  momentum_ = {
+      file_.add("/momentum/linear", {2}, "kg/s", "momentum of the body along x and y, without plates"),
+      file_.add("/momentum/angular", {}, "kg m/s",
+                "angular momentum of the body about the middle of the block, counter-clockwise")};
+  for (const auto& side : body.straight_sides()) {
+    const std::string group = "/plate/" + side->boundary() + "/";
+    const auto add = [&](const std::string& name, const std::string& units, const std::string& description) {
+      plates_.push_back(file_.add(group + name, {}, units, description));
+    };
+    add("displacement", "m", "of the plate's middle along y");
+    add("tilt", "rad", "of the plate, counter-clockwise");
+    add("velocity", "m/s", "of its middle along y");
+    add("tilt_rate", "rad/s", "of the plate, counter-clockwise");
+    add("momentum", "kg/s", "of the plate's own mass along y");
+    add("angular_momentum", "kg m/s", "of its own mass about its middle, counter-clockwise");
+  }
 }
 
 /// Calls `visit(id of the quantity, its place in the observation)` for all that is a real number: what is
@@ -77,6 +97,7 @@ void HistoryFile::visit_numbers(Seen& seen, Visit visit) const {
 void HistoryFile::write(const Observation& seen, const std::vector<ProbeReading>& probes) {
   visit_numbers(seen, [&](int id, double value) { file_.append(id, value); });
   file_.append(step_, static_cast<double>(seen.step));
+  write_momentum(seen);
   for (std::size_t p = 0; p < probes.size(); ++p) {
     file_.append(points_[3 * p], probes[p].u.data());
     file_.append(points_[3 * p + 1], probes[p].v.data());
@@ -99,6 +120,16 @@ std::vector<Observation> HistoryFile::rows_so_far() {
     rows.push_back(row);
   }
   return rows;
+}
+
+void HistoryFile::write_momentum(const Observation& seen) {
+  if (momentum_.empty()) return;
+  file_.append(momentum_[0], seen.momentum.linear.data());
+  file_.append(momentum_[1], seen.momentum.angular);
+  auto column = plates_.begin();
+  for (const PlateReading& plate : seen.plates)
+    for (const PlateMotion& pair : {plate.moved, plate.velocity, plate.momentum})
+      for (const double value : pair) file_.append(*column++, value);
 }
 
 ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows,

@@ -26,7 +26,7 @@ Directions directions_of(const Boundary& boundary) {
   return {normal, tangent};
 }
 
-Observer::Observer(const SlidingBody& body) : body_(body) {
+Observer::Observer(const SlidingBody& body, bool momentum) : body_(body), momentum_(momentum) {
   const Mesh& mesh = body.model().mesh;
   const auto& nodes = body.boundary_nodes();
   boundary_gather_ = OrderedGather(body.comm(), numbers_of(mesh, nodes.node));
@@ -62,6 +62,10 @@ Observation Observer::observe() const {
   seen.time = body_.time();
   seen.step = body_.steps_done() - 1;
   seen.energy = body_.energy();
+  if (momentum_) {
+    seen.momentum = body_.momentum();
+    observe_plates(seen);
+  }
   observe_boundaries(seen);
   if (body_.scene().surface) observe_contact(seen);
   seen.friction = std::numeric_limits<double>::quiet_NaN();
@@ -82,6 +86,21 @@ void Observer::observe_boundaries(Observation& seen) const {
         directions_of(*body_.model().mesh.find_boundary(body_.boundary_names()[b]));
     seen.boundaries.push_back(
         {sum[0] * normal[0] + sum[1] * normal[1], sum[0] * tangent[0] + sum[1] * tangent[1]});
+  }
+}
+
+void Observer::observe_plates(Observation& seen) const {
+  for (const auto& side : body_.straight_sides()) {
+    PlateReading reading;
+    const PlateMotion mass = side->plate_mass();
+    for (std::size_t q = 0; side->answers_for_plate() && q < mass.size(); ++q) {
+      reading.moved[q] = side->displacement()[q];
+      reading.velocity[q] = side->velocity()[q];
+      reading.momentum[q] = mass[q] * reading.velocity[q];
+    }
+    static_assert(sizeof(PlateReading) == 6 * sizeof(double));
+    MPI_Allreduce(MPI_IN_PLACE, &reading, 6, MPI_DOUBLE, MPI_SUM, body_.comm());
+    seen.plates.push_back(reading);
   }
 }
 

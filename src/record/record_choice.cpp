@@ -105,6 +105,12 @@ Schema record_schema() {
        "time between them, in place of history_every; rounded to whole steps"},
       {"history_points", Kind::reals, "m", absent, range::any,
        "points x1,y1,x2,y2,... whose u, v and stress are followed"},
+      {"history_momentum",
+       Kind::flag,
+       "",
+       "false",
+       {},
+       "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
       {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of contact.h5; auto makes about a thousand rows"},
       {"contact_interval", Kind::real, "s", absent, range::positive,
@@ -127,6 +133,18 @@ Schema record_schema() {
        "samples are the multiples of this step in the window; auto takes about a thousand"},
       {"statistics_quantile", Kind::real, "1", "0.99", at_least_half,
        "part of the samples that lies below quantile_high, and above quantile_low"},
+      {"checkpoint_minutes", Kind::real, "min", "15", range::non_negative,
+       "wall time between checkpoints, from which -restart goes on; the last two are kept, one more is left "
+       "at "
+       "the end; 0 writes none, but at a signal"},
+      {"checkpoint_every", Kind::integer, "1", absent, range::at_least_one,
+       "steps between checkpoints, besides those by time"},
+      {"time_wall", Kind::real, "min", absent, range::positive,
+       "wall time after which the run must have ended: it stops before, with a checkpoint and exit code 3"},
+      {"restart", Kind::text, "", absent, range::any,
+       "output folder of a run to go on with, on any number of ranks: alone, or with a later -time_end, "
+       "other "
+       "steps or intervals of output, -checkpoint_... and -time_wall"},
       {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
        "auto shows a line of progress when the output is a terminal"},
       {"run_<entry>", Kind::text, "", absent, range::any,
@@ -141,6 +159,7 @@ RecordChoice read_record(const Options& options) {
     return std::optional<long>(static_cast<long>(options.integer(name)));
   });
   choice.points = read_points(options);
+  choice.momentum = options.flag("history_momentum");
   if (has_surface(options))
     choice.contact = read_cadence(options, "contact",
                                   [&](const std::string& name) { return steps_or_auto(options, name); });
@@ -149,6 +168,11 @@ RecordChoice read_record(const Options& options) {
   read_fields(options, choice);
   choice.statistics = read_statistics(options);
   choice.progress = options.text("progress");
+  choice.checkpoint.minutes = options.real("checkpoint_minutes");
+  if (const auto every = options.find_integer("checkpoint_every"))
+    choice.checkpoint.every = static_cast<long>(*every);
+  choice.checkpoint.wall = options.find_real("time_wall");
+  choice.restart = options.find_text("restart");
   return choice;
 }
 

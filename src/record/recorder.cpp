@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "astray.hpp"
+#include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/files/disk_space.hpp"
 #include "slipscale/record/stress_measures.hpp"
 #include "slipscale/solid/stress.hpp"
 #include "summary.hpp"
@@ -32,8 +34,15 @@ std::vector<long> steps_of(const std::vector<double>& times, const TimeStep& tim
   return steps;
 }
 
-std::optional<StatisticsWindow> window_of(const RecordChoice& choice, const TimeStep& time) {
+/// A restart keeps the window that the run began with, for its samples are counted beforehand.
+std::optional<StatisticsWindow> window_of(const RecordChoice& choice, const TimeStep& time,
+                                          const Restart* restart) {
   if (!choice.statistics) return std::nullopt;
+  if (restart) {
+    const RunPosition& at = restart->position();
+    return StatisticsWindow{static_cast<long>(at.window_first), static_cast<long>(at.window_last),
+                            static_cast<long>(at.window_every)};
+  }
   return statistics_window(*choice.statistics, time);
 }
 
@@ -69,6 +78,24 @@ std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& 
   return of_cell;
 }
 
+/// About a thousand rows, or what the run before a restart made of that.
+long contact_cadence(const RunPosition& before, const TimeStep& time) {
+  return before.contact_every > 0 ? static_cast<long>(before.contact_every) : std::max(1L, time.count / 1000);
+}
+
+/// Whether the force of every step is kept beside sparser rows; a run whose rows have become sparser has not
+/// kept it from the start.
+bool records_force(const RunPosition& before, long history_every) {
+  return history_every > 1 &&
+         (before.history_every == 0 || before.history_every == static_cast<double>(history_every));
+}
+
+std::vector<std::string> files_of_a_run() {
+  return {"run.yaml",  "summary.yaml", "history.h5",        "contact.h5",
+          "fields.h5", "fields.xdmf",  "statistics.h5",     "statistics.xdmf",
+          "fault.h5",  "fault.xdmf",   checkpoint_names[0], checkpoint_names[1]};
+}
+
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
@@ -79,44 +106,79 @@ std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials)
 
 }  // namespace
 
-Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time)
+Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time,
+                   const Restart* restart)
     : body_(body),
       choice_(checked(body, choice)),
+      position_(restart ? restart->position() : RunPosition{}),
       time_(time),
       last_(time.count),
       history_every_(choice.history.steps(time.step, 1)),
       has_contact_(body.scene().surface.has_value()),
-      contact_every_(choice.contact.steps(time.step, std::max(1L, time.count / 1000))),
+      contact_every_(choice.contact.steps(time.step, contact_cadence(position_, time))),
       fields_every_(choice.fields.given() ? std::optional(choice.fields.steps(time.step, 1)) : std::nullopt),
       field_steps_(steps_of(choice.fields_times, time)),
       transverse_(transverse_of_cells(body.model(), choice)),
-      window_(window_of(choice, time)),
-      observer_(body),
+      window_(window_of(choice, time, restart)),
+      observer_(body, choice.momentum),
       probes_(body.comm(), body.model(), choice.points),
-      force_(body, history_every_ > 1 ? observer_.measured() : -1, time.count),
-      folder_(body.comm(), choice.folder,
-              {"run.yaml", "summary.yaml", "history.h5", "contact.h5", "fields.h5", "fields.xdmf",
-               "statistics.h5", "statistics.xdmf"}),
+      force_(body, records_force(position_, history_every_) ? observer_.measured() : -1, time.count),
+      folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run()),
       compliance_(compliances(body.model().materials)),
-      progress_(choice.progress, 0, static_cast<double>(time.count) * time.step),
+      progress_(choice.progress, restart ? static_cast<double>(restart->steps_done()) * time.step : 0,
+                static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
-  if (fields_every_ || !field_steps_.empty())
-    fields_ = std::make_unique<FieldsFile>(body.comm(),
-                                           MeshImage(body.comm(), body.model().mesh, choice.fields_box),
-                                           folder_.path(), choice.quantities, "fields", transverse_);
-  if (window_)
-    statistics_ = std::make_unique<StressStatistics>(body.comm(), body.model().mesh, *window_,
-                                                     choice.statistics->quantile);
-  if (is_root(body.comm())) {
-    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body, probes_.positions(),
-                                             rows(history_every_));
-    if (has_contact_)
-      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_));
+  open_files(restart);
+  if (restart) go_on(*restart);
+  share_faults();
+}
+
+void Recorder::open_files(const Restart* restart) {
+  const MPI_Comm comm = body_.comm();
+  const Mesh& mesh = body_.model().mesh;
+  const auto continued = [&](double rows) {
+    return restart ? std::optional(SeriesFile::Continue{static_cast<hsize_t>(rows)}) : std::nullopt;
+  };
+  if (fields_every_ || !field_steps_.empty()) {
+    std::optional<std::size_t> frames;
+    if (position_.frames > 0) frames = static_cast<std::size_t>(position_.frames);
+    fields_ = std::make_unique<FieldsFile>(comm, MeshImage(comm, mesh, choice_.fields_box), folder_.path(),
+                                           choice_.quantities, "fields", transverse_, frames);
   }
-  const std::string checksum = checksum_text(body.model().mesh.checksum);
+  if (window_)
+    statistics_ = std::make_unique<StressStatistics>(comm, mesh, *window_, choice_.statistics->quantile);
+  if (is_root(comm)) {
+    history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body_, probes_.positions(),
+                                             choice_.momentum, rows(history_every_),
+                                             continued(position_.history_rows));
+    if (has_contact_)
+      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_),
+                                               continued(position_.contact_rows));
+  }
+  const std::string checksum = checksum_text(mesh.checksum);
   if (history_) history_->series().about("mesh_checksum", checksum);
   if (contact_) contact_->series().about("mesh_checksum", checksum);
-  share_faults();
+}
+
+/// What the steps before the restart left, from the checkpoint and from the rows of history.h5.
+void Recorder::go_on(const Restart& restart) {
+  std::vector<StateGroup> groups;
+  if (statistics_) groups = statistics_->state();
+  const bool recorded = records_force(position_, history_every_);
+  if (recorded) groups.push_back(force_.state(restart.steps_done() - 1));
+  restart.read(groups);
+  if (statistics_) statistics_->resume();
+  if (recorded) force_.resume();
+  last_sound_ = static_cast<long>(position_.last_sound);
+  last_frame_ = static_cast<long>(position_.last_frame);
+  largest_residual_ = position_.largest_residual;
+  if (history_) rows_ = history_->rows_so_far();
+  if (position_.history_every != static_cast<double>(history_every_))
+    position_.even_from = position_.history_rows;
+  std::string refusal;
+  if (history_) refusal = history_->series().refusal();
+  if (contact_ && refusal.empty()) refusal = contact_->series().refusal();
+  throw_together(body_.comm(), refusal);
 }
 
 bool Recorder::fields_due(long n) const {
@@ -131,9 +193,12 @@ void Recorder::after_step(long n) {
 }
 
 void Recorder::observe(long n) {
+  static const LogEvent observation("Observation"), writing("Writing");
+  std::optional<LogEvent::Scope> scope(observation);
   Observation seen = observer_.observe();
   check(seen);
   const auto readings = probes_.read(body_);
+  scope.emplace(writing);
   if (contact_ && contact_due(n)) contact_->write(seen, body_.surface_velocity());
   if (history_ && (n % history_every_ == 0 || n == last_)) {
     history_->write(seen, readings);
@@ -169,6 +234,56 @@ void Recorder::record_cells(long n) {
   if (sample) statistics_->add(body_.time(), stress_, strain_);
 }
 
+std::vector<StateGroup> Recorder::state(long n) {
+  const auto on_cadence = [&](double rows, long every) {
+    return rows - (n == last_ && n % every != 0 ? 1 : 0);
+  };
+  RunPosition& at = position_;
+  at.set_time_step(time_);
+  at.history_every = static_cast<double>(history_every_);
+  at.contact_every = has_contact_ ? static_cast<double>(contact_every_) : 0;
+  at.fields_every = fields_every_ ? static_cast<double>(*fields_every_) : 0;
+  if (window_) {
+    at.window_first = static_cast<double>(window_->first);
+    at.window_last = static_cast<double>(window_->last);
+    at.window_every = static_cast<double>(window_->every);
+  }
+  // The last row of a run may lie between the others; a run that goes further has no row there.
+  if (history_) at.history_rows = on_cadence(static_cast<double>(history_->series().rows()), history_every_);
+  if (contact_) at.contact_rows = on_cadence(static_cast<double>(contact_->series().rows()), contact_every_);
+  if (fields_) {
+    at.frames = static_cast<double>(fields_->frames());
+    if (fields_every_) at.frames = on_cadence(at.frames, *fields_every_);
+  }
+  at.last_sound = static_cast<double>(last_sound_);
+  at.last_frame = static_cast<double>(last_frame_);
+  at.largest_residual = largest_residual_;
+  RunPosition written = at;
+  written.seconds = seconds();
+  written_ = written;
+  std::vector<StateGroup> groups{written_.state(is_root(body_.comm()))};
+  if (statistics_)
+    for (StateGroup& group : statistics_->state()) groups.push_back(std::move(group));
+  if (records_force(position_, history_every_)) groups.push_back(force_.state(n));
+  return groups;
+}
+
+void Recorder::sync() {
+  for (SeriesFile* series :
+       {history_ ? &history_->series() : nullptr, contact_ ? &contact_->series() : nullptr})
+    if (series) series->flush();
+  share_faults();
+  write_together(body_.comm(), folder_.path(), [&] {
+    if (history_) sync_file(folder_.path("history.h5"));
+    if (contact_) sync_file(folder_.path("contact.h5"));
+    if (history_ && fields_) sync_file(folder_.path("fields.h5"));
+  });
+}
+
+double Recorder::seconds() const {
+  return position_.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
 void Recorder::check(const Observation& seen) const {
   const Energy& e = seen.energy;
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
@@ -189,6 +304,15 @@ void Recorder::stop(const std::string& fault, const std::string& cure) const {
     } catch (const RunError& error) {
       kept = error.what();
     }
+  }
+  try {
+    const MPI_Comm comm = body_.comm();
+    FieldsFile state(comm, MeshImage(comm, body_.model().mesh), folder_.path(), {true, true, false}, "fault");
+    state.write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), nullptr);
+    state.close();
+    kept += ", and the state of this step is in '" + folder_.path("fault.xdmf") + "'";
+  } catch (const RunError& error) {
+    kept = error.what();
   }
   throw RunError(fault + "; " + kept + ". " + cure);
 }

@@ -86,25 +86,41 @@ void Recorder::write_run(const Options& options) const {
       yaml.numbers("wave_speeds_" + mesh.regions[r].name, {speeds.fast, speeds.slow}, "m/s along y");
     }
   };
-  folder_.write_text("run.yaml", run_yaml(options.effective(), facts));
+  auto effective = options.effective();
+  effective.erase("restart");
+  folder_.write_text("run.yaml", run_yaml(effective, facts));
 }
 
-std::string Recorder::finish() {
+void Recorder::close_files() {
   progress_.finish();
   if (fields_) fields_->close();
   if (history_) history_->series().close();
   if (contact_) contact_->series().close();
   share_faults();
+}
+
+std::string Recorder::finish() {
+  close_files();
   if (statistics_) statistics_->write(folder_.path());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const std::vector<double> force = force_.gather();
+  return summary(last_, "", "");
+}
+
+std::string Recorder::interrupt(const std::string& why, const std::string& command) {
+  close_files();
+  return summary(body_.steps_done() - 1, why, command);
+}
+
+std::string Recorder::summary(long steps, const std::string& why, const std::string& command) {
+  // Of an interrupted run neither the force at every step is complete, nor the velocity at the last one.
+  const std::vector<double> force = why.empty() ? force_.gather() : std::vector<double>{};
+  const Momentum momentum = why.empty() ? body_.momentum() : Momentum{};
   std::vector<std::string> remarks = remarks_at_start(body_);
   for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
-  const Momentum momentum = body_.momentum();
   std::string text;
   if (is_root(body_.comm()))
     text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, contact_every_, force,
-                         largest_residual_, seconds, std::move(remarks), momentum});
+                         largest_residual_, seconds(), std::move(remarks), momentum, steps, why, command,
+                         static_cast<std::size_t>(position_.even_from)});
   folder_.write_text("summary.yaml", text);
   return text;
 }

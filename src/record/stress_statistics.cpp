@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
 #include "slipscale/files/statistics_file.hpp"
@@ -72,6 +73,26 @@ void StressStatistics::add(double time, const std::vector<std::array<double, 3>>
   };
   add_to(stress_, stress);
   add_to(strain_, strain);
+}
+
+std::vector<StateGroup> StressStatistics::state() {
+  StateGroup cells{"cells", {}, mesh_.cells.total, true, stress_.state("stress", "Pa")};
+  for (const int cell : owned_) cells.keys.push_back(mesh_.cells.number[cell]);
+  for (StateArray& array : strain_.state("strain", "1")) cells.arrays.push_back(std::move(array));
+  carried_ = {static_cast<double>(samples()), from_, to_};
+  return {std::move(cells),
+          {"statistics",
+           {0},
+           0,
+           is_root(comm_),
+           {{"window", "1", "samples so far, time of the first and of the last (s)", 3, carried_.data()}}}};
+}
+
+void StressStatistics::resume() {
+  stress_.resume(static_cast<std::size_t>(carried_[0]));
+  strain_.resume(static_cast<std::size_t>(carried_[0]));
+  from_ = carried_[1];
+  to_ = carried_[2];
 }
 
 void StressStatistics::write(const std::string& folder) const {

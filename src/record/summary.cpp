@@ -21,7 +21,7 @@ class Window {
   explicit Window(const SummaryInput& in) : rows_(in.rows) {
     std::vector<double> times;
     for (const Observation& row : rows_) times.push_back(row.time);
-    from_ = default_window(times);
+    from_ = std::max(default_window(times), in.even_from);
   }
 
   double begin() const { return rows_[from_].time; }
@@ -163,8 +163,13 @@ std::string summary_text(const SummaryInput& in) {
   yaml.remark("Headline numbers of a slide run; averages are over the second half of the run, with standard");
   yaml.remark("errors from blocks of it.");
   yaml.text("version", version);
-  yaml.number("simulated_time", static_cast<double>(in.time.count) * in.time.step, "s");
-  yaml.integer("steps", in.time.count);
+  yaml.text("state", in.why.empty() ? "finished" : "interrupted");
+  if (!in.why.empty()) {
+    yaml.text("interrupted_by", in.why);
+    yaml.text("go_on_with", in.command);
+  }
+  yaml.number("simulated_time", static_cast<double>(in.steps) * in.time.step, "s");
+  yaml.integer("steps", in.steps);
   yaml.number("step", in.time.step, "s");
   yaml.number("step_over_stable_step", in.time.step / in.time.limit);
   write_window(yaml, in, window);
@@ -172,7 +177,7 @@ std::string summary_text(const SummaryInput& in) {
   if (in.measured >= 0) friction = write_load(yaml, in, window);
   if (in.body.scene().surface) write_contact(yaml, window, friction);
   write_energy(yaml, in);
-  write_momentum(yaml, in);
+  if (in.why.empty()) write_momentum(yaml, in);
   for (std::size_t k = 0; k < in.remarks.size(); ++k) {
     if (k == 0) yaml.begin("notes");
     yaml.text("note_" + std::to_string(k + 1), in.remarks[k]);
@@ -180,7 +185,7 @@ std::string summary_text(const SummaryInput& in) {
   }
   yaml.begin("cost");
   yaml.number("wall_time", in.seconds, "s, of the steps and their output");
-  yaml.number("ns_per_node_and_step", 1e9 * in.seconds / (nodes * static_cast<double>(in.time.count + 1)));
+  yaml.number("ns_per_node_and_step", 1e9 * in.seconds / (nodes * static_cast<double>(in.steps + 1)));
   yaml.end();
   return yaml.str();
 }

@@ -19,6 +19,9 @@ struct SummaryInput {
   double seconds;                        ///< wall time of the steps
   std::vector<std::string> remarks;      ///< on the scene and the run, a sentence each
   Momentum momentum;                     ///< at the end
+  long steps;                            ///< made
+  std::string why, command;              ///< of an interrupted run: who stopped it, how to go on
+  std::size_t even_from;                 ///< the row from which on rows are as far apart as they are now
 };
 
 /// summary.yaml: the headline numbers, on rank 0.

@@ -37,9 +37,9 @@ TEST_F(IdleOptions, AreSetAsideWhereALaterPlaceMakesThemIdle) {
   const Options read = from(1, 2);
   (void)read.real("friction_coefficient");
   EXPECT_NO_THROW(read.refuse_idle({"friction_coefficient"}, no_law));
-  EXPECT_EQ(read.notes(), (std::vector<std::string>{
-                              "note: -friction_coefficient of a.yaml has no effect with -friction_law none "
-                              "(b.yaml); it is set aside"}));
+  EXPECT_EQ(read.notes(),
+            (std::vector<std::string>{"-friction_coefficient of a.yaml has no effect with -friction_law none "
+                                      "(b.yaml); it is set aside"}));
   EXPECT_FALSE(read.given("friction_coefficient"));
   EXPECT_FALSE(read.effective().contains("friction_coefficient"));
   EXPECT_NE(sentence([&] { (void)read.real("friction_coefficient"); }).find("not given"), std::string::npos);
@@ -99,7 +99,7 @@ TEST_F(IdleOptions, OfTwoThatSayTheSameTheLaterCounts) {
   EXPECT_TRUE(first.given("friction_coefficient") && !first.given("friction_law"));
   EXPECT_TRUE(!second.given("friction_coefficient") && second.given("friction_law"));
   EXPECT_EQ(first.notes().front(),
-            "note: -friction_law of b.yaml gives way to -friction_coefficient (a.yaml); it is set aside");
+            "-friction_law of b.yaml gives way to -friction_coefficient (a.yaml); it is set aside");
 }
 
 /// Options know no difference between capitals and small letters, and users should not rely on one.

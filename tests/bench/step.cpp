@@ -1,6 +1,8 @@
 // What a time step costs on one core, against PETSc's matrix products with the same stiffness and node order:
-//   tests/bench/bench_step -nodes 4000,24000,145000 -repetitions 31
+//   tests/bench/bench_step -nodes 4000,24000,145000 -repetitions 31 -shape triangles
 //   tests/bench/bench_step -mesh block.msh              (any mesh with curves `bottom` and `top`)
+// Shapes: triangles or quadrilaterals of a grid, or general triangles, of which no two are alike. Region
+// `inclusion`, where a mesh has it, is three times as stiff.
 // The variants take turns within one run, and every figure is a median, so that a busy machine disturbs all
 // alike.
 #include <algorithm>
@@ -42,11 +44,13 @@ double time_of(const std::function<void()>& action, int calls) {
 }
 
 /// A block under pressure that slides; everything moves, so no arithmetic meets zeros or denormal numbers.
-Scene sliding_block(double stiffness_damping) {
+Scene sliding_block(double stiffness_damping, bool uniform) {
   Scene scene = scene_r();
   scene.damping.stiffness = stiffness_damping;
-  scene.initial.pressure = 15e6;
-  scene.initial.shear = 7.5e6;
+  if (uniform) {  // a composite has no uniform state
+    scene.initial.pressure = 15e6;
+    scene.initial.shear = 7.5e6;
+  }
   scene.initial.amplitude = 0.01;
   scene.initial.wavelength = 5e-3;
   return scene;
@@ -60,28 +64,46 @@ OwnedMat product(const Mesh& mesh, const std::vector<Material>& materials, MatTy
 }
 
 void measure(const Mesh& mesh, int repetitions) {
-  const std::vector<Material> materials(mesh.regions.size(), scene_r_material());
-  const Model model(mesh, materials, Model::Storage::full), single(mesh, materials, Model::Storage::single);
-  const double limit = choose_step(PETSC_COMM_SELF, model, sliding_block(2e-9), {{}, 0.9, 1e-3}).step;
-  SlidingBody undamped(PETSC_COMM_SELF, model, sliding_block(0), limit);
-  SlidingBody damped(PETSC_COMM_SELF, model, sliding_block(2e-9), limit);
-  SlidingBody damped_single(PETSC_COMM_SELF, single, sliding_block(2e-9), limit);
+  std::vector<Material> materials;
+  for (const Region& region : mesh.regions) {
+    materials.push_back(scene_r_material());
+    if (region.name == "inclusion") materials.back().stiffness *= 3;
+  }
+  const bool uniform = materials.size() == 1;
+  const StiffnessKernel runs, pairs{false, runs.instructions}, base{true, Instructions::base};
+  const Model model(mesh, materials, Model::Storage::full, runs),
+      visited(mesh, materials, Model::Storage::full, pairs),
+      plain(mesh, materials, Model::Storage::full, base),
+      single(mesh, materials, Model::Storage::single, runs);
+  const double limit =
+      choose_step(PETSC_COMM_SELF, model, sliding_block(2e-9, uniform), {{}, 0.9, 1e-3}).step;
+  SlidingBody undamped(PETSC_COMM_SELF, model, sliding_block(0, uniform), limit);
+  SlidingBody undamped_pairs(PETSC_COMM_SELF, visited, sliding_block(0, uniform), limit);
+  SlidingBody undamped_base(PETSC_COMM_SELF, plain, sliding_block(0, uniform), limit);
+  SlidingBody damped(PETSC_COMM_SELF, model, sliding_block(2e-9, uniform), limit);
+  SlidingBody damped_single(PETSC_COMM_SELF, single, sliding_block(2e-9, uniform), limit);
   NodalVector u(PETSC_COMM_SELF, mesh.nodes, true), f(PETSC_COMM_SELF, mesh.nodes, true);
   for (int i = 0; i < mesh.nodes.owned; ++i) u.data()[i] = {std::sin(0.1 * i), std::cos(0.1 * i)};
-  const OwnedMat baij = product(mesh, materials, MATSEQBAIJ), aij = product(mesh, materials, MATSEQAIJ),
-                 sell = product(mesh, materials, MATSEQSELL);
+  const OwnedMat baij = product(mesh, materials, MATSEQBAIJ);
 
   const auto multiply = [&](Mat matrix) { petsc(MatMult(matrix, u.vec(), f.vec())); };
   std::vector<Variant> variants{
       {"MATBAIJ product", [&] { multiply(baij); }},
-      {"MATAIJ product", [&] { multiply(aij); }},
-      {"MATSELL product", [&] { multiply(sell); }},
-      {"pair product", [&] { model.multiply(u.data(), f.data()); }},
-      {"pair product, single", [&] { single.multiply(u.data(), f.data()); }},
+      {"product", [&] { model.multiply(u.data(), f.data()); }},
+      {"product, pairs", [&] { visited.multiply(u.data(), f.data()); }},
       {"step", [&] { undamped.advance(false); }},
+      {"step, pairs", [&] { undamped_pairs.advance(false); }},
+      {"step, base instructions", [&] { undamped_base.advance(false); }},
       {"step, stiffness damping", [&] { damped.advance(false); }},
       {"the same, single", [&] { damped_single.advance(false); }},
   };
+  OwnedMat aij, sell;
+  if (mesh.nodes.owned < 30000) {  // for comparison; they take their memory
+    aij = product(mesh, materials, MATSEQAIJ);
+    sell = product(mesh, materials, MATSEQSELL);
+    variants.push_back({"MATAIJ product", [&] { multiply(aij); }});
+    variants.push_back({"MATSELL product", [&] { multiply(sell); }});
+  }
   const int calls = std::max(2, static_cast<int>(5e5 / mesh.nodes.owned));
   for (int k = -1; k < repetitions; ++k)  // the first round warms up
     for (Variant& variant : variants) {
@@ -89,7 +111,13 @@ void measure(const Mesh& mesh, int repetitions) {
       if (k >= 0) variant.seconds.push_back(duration);
     }
 
-  std::printf("%d nodes, %d cells, %d repetitions\n", mesh.nodes.owned, mesh.cells.size(), repetitions);
+  const auto& stiffness = std::get<PairStiffness<double>>(model.stiffness);
+  std::printf(
+      "%d nodes, %d cells, %d repetitions, %s; %.1f %% of the nodes gathered, %.1f %% repeat; %.0f bytes a "
+      "node\n",
+      mesh.nodes.owned, mesh.cells.size(), repetitions, name_of(runs.instructions).c_str(),
+      100.0 * stiffness.gathered() / mesh.nodes.owned, 100.0 * stiffness.repeating() / mesh.nodes.owned,
+      static_cast<double>(stiffness.bytes()) / mesh.nodes.owned);
   for (const Variant& variant : variants) {
     std::vector<double> ratio;
     for (int k = 0; k < repetitions; ++k) ratio.push_back(variant.seconds[k] / variants[0].seconds[k]);
@@ -101,14 +129,17 @@ void measure(const Mesh& mesh, int repetitions) {
   std::fflush(stdout);
 }
 
-Mesh triangles_with(PetscInt nodes) {
+Mesh mesh_with(PetscInt nodes, const std::string& shape) {
   Block block;
   block.width = block.height = 5e-3;
   block.nx = block.ny = static_cast<int>(std::sqrt(static_cast<double>(nodes))) - 1;
-  block.distortion = 0.2;
+  block.distortion = shape == "general" ? 0.2 : 0;
+  block.shape = shape == "quadrilaterals" ? Shape::quadrilaterals : Shape::triangles;
   const std::string path = scratch("bench.msh");
   write_block(block, path);
-  return read_mesh(PETSC_COMM_SELF, {path});
+  Mesh mesh = read_mesh(PETSC_COMM_SELF, {path});
+  std::remove(path.c_str());
+  return mesh;
 }
 
 }  // namespace
@@ -117,14 +148,15 @@ int main(int argc, char** argv) {
   petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
   PetscInt nodes[16] = {4000, 24000, 145000}, count = 16, repetitions = 31;
   PetscBool given = PETSC_FALSE;
-  char path[PETSC_MAX_PATH_LEN] = "";
+  char path[PETSC_MAX_PATH_LEN] = "", shape[64] = "general";
   petsc(PetscOptionsGetIntArray(nullptr, nullptr, "-nodes", nodes, &count, &given));
   if (!given) count = 3;
   petsc(PetscOptionsGetInt(nullptr, nullptr, "-repetitions", &repetitions, nullptr));
+  petsc(PetscOptionsGetString(nullptr, nullptr, "-shape", shape, sizeof(shape), nullptr));
   petsc(PetscOptionsGetString(nullptr, nullptr, "-mesh", path, sizeof(path), &given));
   if (given) measure(read_mesh(PETSC_COMM_SELF, {path}), static_cast<int>(repetitions));
   for (PetscInt k = 0; !given && k < count; ++k)
-    measure(triangles_with(nodes[k]), static_cast<int>(repetitions));
+    measure(mesh_with(nodes[k], shape), static_cast<int>(repetitions));
   petsc(PetscFinalize());
   return 0;
 }

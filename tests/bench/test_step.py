@@ -1,5 +1,5 @@
-"""bench_step on a small mesh: it runs to its end, and every figure it prints is one. What crashes after its last line has
-not passed."""
+"""bench_step on a small mesh: it runs to its end, and every figure it prints is one. What crashes after its last line
+has not passed."""
 
 import os
 import re
@@ -18,11 +18,12 @@ def figures(*command):
 
 class Step(unittest.TestCase):
     def test_figures(self):
-        found = figures(os.environ["BENCH_STEP"], "-nodes", "1000", "-repetitions", "3")
-        self.assertEqual(len(found), 8, found)
-        self.assertEqual(found["MATBAIJ product"][2], 1)
-        for name, (median, least, ratio) in found.items():
-            self.assertTrue(0 < least <= median and ratio > 0, name)
+        for shape in ("general", "quadrilaterals"):
+            found = figures(os.environ["BENCH_STEP"], "-nodes", "1000", "-repetitions", "3", "-shape", shape)
+            self.assertEqual(len(found), 10, found)
+            self.assertEqual(found["MATBAIJ product"][2], 1)
+            for name, (median, least, ratio) in found.items():
+                self.assertTrue(0 < least <= median and ratio > 0, name)
 
     def test_a_crash_at_the_end_is_seen(self):
         line = "  step    1.00 ns per node (least   1.00)   0.900 x MATBAIJ"

@@ -63,7 +63,7 @@ TEST(ContactNodes, OpenNodeIsLeftAloneAndForgets) {
     node.contact.start_memory(7, 8);
     node.u[1] = -clearance + gap;
     const Vector2 free = node.u;
-    node.enforce(RegularizedStrength{0.5, relaxation(0.1)});
+    node.enforce(RegularisedStrength{0.5, relaxation(0.1)});
     EXPECT_EQ(node.u, free);
     EXPECT_EQ(node.a, (Vector2{0, 0}));
     EXPECT_EQ(node.contact.force[0], (Vector2{0, 0}));

@@ -13,7 +13,7 @@ namespace {
 double displacement_at(double end, int steps) {
   const double dt = end / steps, time = 0.3;
   const ContactStep step{{dt, dt, 0.5 * dt, dt * dt}, 1e6 * dt, 1e6};
-  const RegularizedInstantaneous law{1, relaxation(dt / time)};
+  const RegularisedInstantaneous law{1, relaxation(dt / time)};
   ContactNodes contact;
   contact.add(0, 0, 1, 1, 0, false);
   contact.start_memory(0, 1);

@@ -70,14 +70,14 @@ TEST(Frictionless, HasNoTraction) {
 
 /// L* → 0 gives Coulomb, bit for bit, whatever came before: as chosen by the user, and in the laws
 /// themselves.
-TEST(Regularized, WithoutTimeIsCoulomb) {
+TEST(Regularised, WithoutTimeIsCoulomb) {
   for (const bool stored : {false, true})
     for (const FrictionLaw& law :
          {friction_law(regularized(stored, 0), 1e-9), friction_law(by_slip_rate(stored, 0), 1e-9),
-          stored ? FrictionLaw(RegularizedStrength{mu, relaxation(infinity)})
-                 : FrictionLaw(RegularizedInstantaneous{mu, relaxation(infinity)}),
-          stored ? FrictionLaw(SlipRate<RegularizedStrength>{mu, 0, 0.25, 1e-9})
-                 : FrictionLaw(SlipRate<RegularizedInstantaneous>{mu, 0, 0.25, 1e-9})}) {
+          stored ? FrictionLaw(RegularisedStrength{mu, relaxation(infinity)})
+                 : FrictionLaw(RegularisedInstantaneous{mu, relaxation(infinity)}),
+          stored ? FrictionLaw(SlipRate<RegularisedStrength>{mu, 0, 0.25, 1e-9})
+                 : FrictionLaw(SlipRate<RegularisedInstantaneous>{mu, 0, 0.25, 1e-9})}) {
       Demands demands;
       FrictionMemory memory, unused;
       int stuck = 0;
@@ -94,7 +94,7 @@ TEST(Regularized, WithoutTimeIsCoulomb) {
 }
 
 /// L* → ∞: the traction of a slipping node, or the stored strength, stays what it was.
-TEST(Regularized, WithInfiniteTimeIsFrozen) {
+TEST(Regularised, WithInfiniteTimeIsFrozen) {
   for (const bool stored : {false, true}) {
     const FrictionLaw law = friction_law(regularized(stored, infinity), 1e-9);
     FrictionMemory memory{0.125, 2};
@@ -108,7 +108,7 @@ TEST(Regularized, WithInfiniteTimeIsFrozen) {
 
 /// At the start no time has passed since the memory: it is what slips, and with no length to relax over it is
 /// Coulomb's.
-TEST(Regularized, AtTheStartAnswersTheMemory) {
+TEST(Regularised, AtTheStartAnswersTheMemory) {
   for (const bool stored : {false, true})
     for (const FrictionLaw& law :
          {friction_law(regularized(stored, 2), 0), friction_law(by_slip_rate(stored, 2), 0)}) {
@@ -123,8 +123,8 @@ TEST(Regularized, AtTheStartAnswersTheMemory) {
   }
 }
 
-TEST(RegularizedInstantaneous, SticksBelowCoulombsLimitAndRemembersTheTraction) {
-  const RegularizedInstantaneous law{mu, relaxation(0.1)};
+TEST(RegularisedInstantaneous, SticksBelowCoulombsLimitAndRemembersTheTraction) {
+  const RegularisedInstantaneous law{mu, relaxation(0.1)};
   FrictionMemory memory{0.2, 5};
   const Friction friction = law({-0.9, 2, 0}, memory);
   EXPECT_EQ(friction.traction, -0.9);
@@ -133,10 +133,10 @@ TEST(RegularizedInstantaneous, SticksBelowCoulombsLimitAndRemembersTheTraction) 
   EXPECT_EQ(memory.pressure, 2);  // kept while sticking
 }
 
-TEST(RegularizedInstantaneous, RelaxesInSlip) {
+TEST(RegularisedInstantaneous, RelaxesInSlip) {
   const Relaxation w = relaxation(0.1);
   FrictionMemory memory{-0.2, 5};
-  const Friction friction = RegularizedInstantaneous{mu, w}({-9, 2, 0}, memory);
+  const Friction friction = RegularisedInstantaneous{mu, w}({-9, 2, 0}, memory);
   EXPECT_DOUBLE_EQ(friction.traction, -(w.keep * 0.2 + mu * (w.now * 2 + w.before * 5)));
   EXPECT_EQ(friction.status, ContactStatus::slip);
   EXPECT_EQ(memory.traction, friction.traction);
@@ -144,26 +144,26 @@ TEST(RegularizedInstantaneous, RelaxesInSlip) {
 }
 
 /// A memory that opposes sign(τ*) restarts from 0, since slip must oppose the traction.
-TEST(RegularizedInstantaneous, OpposingMemoryRestartsFromZero) {
+TEST(RegularisedInstantaneous, OpposingMemoryRestartsFromZero) {
   const Relaxation w = relaxation(0.1);
   FrictionMemory memory{0.8, 2};
-  const Friction friction = RegularizedInstantaneous{mu, w}({-9, 2, 0}, memory);
+  const Friction friction = RegularisedInstantaneous{mu, w}({-9, 2, 0}, memory);
   EXPECT_DOUBLE_EQ(friction.traction, -mu * (w.now + w.before) * 2);
 }
 
 /// Where the relaxed traction would exceed |τ*| the node sticks with τ = τ*.
-TEST(RegularizedInstantaneous, NeverPullsBeyondSticking) {
+TEST(RegularisedInstantaneous, NeverPullsBeyondSticking) {
   FrictionMemory memory{3, 6};
-  const Friction friction = RegularizedInstantaneous{mu, relaxation(0.01)}({1.5, 2, 0}, memory);
+  const Friction friction = RegularisedInstantaneous{mu, relaxation(0.01)}({1.5, 2, 0}, memory);
   EXPECT_EQ(friction.traction, 1.5);
   EXPECT_EQ(friction.status, ContactStatus::stick);
   EXPECT_EQ(memory.traction, 1.5);
 }
 
 /// The stored strength relaxes to μp whether the node sticks or slips, and is what |τ*| is compared with.
-TEST(RegularizedStrength, RelaxesWhileItSticks) {
+TEST(RegularisedStrength, RelaxesWhileItSticks) {
   const Relaxation w = relaxation(0.1);
-  const RegularizedStrength law{mu, w};
+  const RegularisedStrength law{mu, w};
   FrictionMemory memory{0.4, 2};
   double strength = 0.4;
   for (const double trial : {0.1, -0.2, 9.0, -9.0, 0.3}) {
@@ -177,11 +177,11 @@ TEST(RegularizedStrength, RelaxesWhileItSticks) {
 }
 
 /// A demand between the strength and μp slips here and sticks with the paper's threshold.
-TEST(RegularizedStrength, DiffersFromTheInstantaneousThreshold) {
+TEST(RegularisedStrength, DiffersFromTheInstantaneousThreshold) {
   FrictionMemory stored{0.1, 2}, traction{0.1, 2};
   const FrictionDemand demand{0.8, 2, 0};
-  EXPECT_EQ((RegularizedStrength{mu, relaxation(0.1)}(demand, stored).status), ContactStatus::slip);
-  EXPECT_EQ((RegularizedInstantaneous{mu, relaxation(0.1)}(demand, traction).status), ContactStatus::stick);
+  EXPECT_EQ((RegularisedStrength{mu, relaxation(0.1)}(demand, stored).status), ContactStatus::slip);
+  EXPECT_EQ((RegularisedInstantaneous{mu, relaxation(0.1)}(demand, traction).status), ContactStatus::stick);
 }
 
 /// T = L/(|slip rate| + V*), the same for both directions of slip.

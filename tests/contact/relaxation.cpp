@@ -5,9 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "report.hpp"
 #include "slipscale/contact/friction.hpp"
 
 using namespace slipscale;
+using namespace slipscale::testing_support;
 
 namespace {
 
@@ -53,7 +55,7 @@ Response response(double omega, double time, int steps) {
   const int settle = steps * static_cast<int>(std::ceil(40 * time / period));
   for (int n = 1; n <= settle + steps; ++n) {
     const double t = n * dt, traction = law({far, pressure(t), 0}, memory).traction;
-    error = std::max(error, std::abs(traction - exact(t)));
+    error = worse(error, std::abs(traction - exact(t)));
     if (n <= settle) continue;
     in_phase += traction * std::sin(omega * t) * 2 / steps;
     out_of_phase += traction * std::cos(omega * t) * 2 / steps;
@@ -107,7 +109,7 @@ TEST(Relaxation, LimitsAreCoulombAndFrozen) {
 TEST(Relaxation, FollowsAnOscillatingPressure) {
   for (const double time : {0.02, 0.3, 2.0}) {
     constexpr double omega = 5;
-    const Response found = response<RegularizedInstantaneous>(omega, time, 200);
+    const Response found = response<RegularisedInstantaneous>(omega, time, 200);
     EXPECT_NEAR(found.gain * std::hypot(1, omega * time), 1, 1e-4) << "T = " << time;
     EXPECT_NEAR(found.lag, std::atan(omega * time), 1e-4) << "T = " << time;
   }
@@ -118,10 +120,10 @@ TEST(Relaxation, IsSecondOrderInTheTimeStep) {
     const auto order = [](const Response& coarse, const Response& fine) {
       return std::log2(coarse.error / fine.error);
     };
-    EXPECT_GT(order(response<RegularizedInstantaneous>(5, time, 100),
-                    response<RegularizedInstantaneous>(5, time, 200)),
+    EXPECT_GT(order(response<RegularisedInstantaneous>(5, time, 100),
+                    response<RegularisedInstantaneous>(5, time, 200)),
               1.9);
-    EXPECT_GT(order(response<RegularizedStrength>(5, time, 100), response<RegularizedStrength>(5, time, 200)),
+    EXPECT_GT(order(response<RegularisedStrength>(5, time, 100), response<RegularisedStrength>(5, time, 200)),
               1.9);
   }
 }

@@ -15,10 +15,10 @@ Eigen::Vector4d advance(const Eigen::Vector4d& state, double omega, double step,
   const double inverse_mass = 1;
   const Vector2 force{omega * omega * state[0], 0}, previous{omega * omega * state[3], 0};
   Vector2 u{state[0], 0}, w{state[1], 0}, a{state[2], 0};
-  BulkSums sums;
+  Vector2 damping_loss{}, coming{}, scheme_loss{};
   constexpr BulkPhysics everything{true, true, true, true};
-  FreeMotion<everything>({&inverse_mass, &force, &previous, &u, &w, &a}, beta2_step(step, beta2), damping,
-                         {0, 0}, sums)(0, 1);
+  FreeMotion(everything, Instructions::base, {&inverse_mass, &force, &previous, &u, &w, &a},
+             beta2_step(step, beta2), damping, {0, 0}, {&damping_loss, &coming, &scheme_loss}, {})(0, 1);
   return {u[0], w[0], a[0], state[0]};
 }
 

@@ -1,7 +1,8 @@
 """What each option of `slide` does: the table behind test_every_option.py.
 
-A row changes one option of a small scene and says how a number among the results answers, and names the scenes in which
-the option has no effect and is refused. Expectations are the physics' or the option's own meaning, never earlier output.
+A row changes one option of a small scene and says how a number among the results answers, and names the scenes in
+which the option has no effect and is refused. Expectations are the physics' or the option's own meaning, never earlier
+output.
 """
 
 from dataclasses import dataclass, field
@@ -185,8 +186,8 @@ ROWS = {
                        [Idle({"OPTION": 0.5}, "with -time_step 2e-08")]),
     "time_end": Row([Answer({"OPTION": 8e-6}, last("time"), grows(2))], ALWAYS),
     "time_beta2": Row([Answer({"OPTION": 0.8}, last("energy/scheme_dissipation"), more)], ALWAYS),
-    "stiffness_storage": Row([Answer({"OPTION": "single"}, lambda run: run.history["points/0/u"], differs(1e-12, 1e-5))],
-                             ALWAYS),
+    "stiffness_storage": Row([Answer({"OPTION": "single"}, lambda run: run.history["points/0/u"],
+                                     differs(1e-12, 1e-5))], ALWAYS),
 
     "boundary_<boundary>_x": Row([Answer({"OPTION": "free"}, TOP_X, more),
                                   Answer({"OPTION": 1e-7}, TOP_X, becomes(1e-7))], ALWAYS),
@@ -197,9 +198,11 @@ ROWS = {
     "boundary_<boundary>_shear": Row([Answer({"OPTION": 1e6}, TOP_X, more, base={"boundary_top_x": None})],
                                      [Idle({"OPTION": 1e6}, HELD)]),
     "boundary_<boundary>_ramp": Row([Answer({"OPTION": 4e-6}, LOAD, less)],
-                                    [Idle({"boundary_top_y": "fixed"}, "where no displacement, pressure, shear or force is imposed")]),
+                                    [Idle({"boundary_top_y": "fixed"},
+                                          "where no displacement, pressure, shear or force is imposed")]),
     # Kept straight, the top carries what presses it; a heavier plate has not come as far.
-    "boundary_<boundary>_force": Row([Answer({"OPTION": 2e4}, LOAD, more, base=PLATE)], [Idle({"OPTION": 1e4}, NOT_STRAIGHT)]),
+    "boundary_<boundary>_force": Row([Answer({"OPTION": 2e4}, LOAD, more, base=PLATE)],
+                                     [Idle({"OPTION": 1e4}, NOT_STRAIGHT)]),
     "boundary_<boundary>_mass": Row([Answer({"OPTION": 1}, last("energy/loads"), less, base=PLATE)],
                                     [Idle({"OPTION": 1}, NOT_STRAIGHT)]),
 
@@ -210,24 +213,27 @@ ROWS = {
                                            base=SINE)],
                                    [Idle({"OPTION": SIDE}, "without -initial_sine_amplitude")]),
     "initial_gap": Row([Answer({"OPTION": 1e-7}, arrival, more)], [needs_surface(1e-6)]),
-    "initial_pressure": Row([Answer({"OPTION": 1e6}, first("energy/strain"), becomes(strain_energy(1e6, C22)))], ALWAYS),
+    "initial_pressure": Row([Answer({"OPTION": 1e6}, first("energy/strain"), becomes(strain_energy(1e6, C22)))],
+                            ALWAYS),
     "initial_shear": Row([Answer({"OPTION": 1e6}, first("energy/strain"), becomes(strain_energy(1e6, C66)))], ALWAYS),
 
-    "surface_boundary": Row([Answer({name: SCENE[name] for name in FREE}, lambda run: int("contact.h5" in run.files), more,
-                                    base=FREE)], ALWAYS),
+    "surface_boundary": Row([Answer({name: SCENE[name] for name in FREE},
+                                    lambda run: int("contact.h5" in run.files), more, base=FREE)], ALWAYS),
     "surface_height": Row([Answer({"OPTION": -5e-7}, LOAD, less)], [needs_surface(-1e-6)]),
     # The block and its mesh are symmetric.
-    "surface_speed": Row([Answer({"OPTION": -2}, DRAG, grows(-1)), Answer({"OPTION": 4}, last("energy/surface_drive"), more)],
-                         [needs_surface(2)]),
+    "surface_speed": Row([Answer({"OPTION": -2}, DRAG, grows(-1)),
+                          Answer({"OPTION": 4}, last("energy/surface_drive"), more)], [needs_surface(2)]),
     "surface_speed_ramp": Row([Answer({"OPTION": 1e-5}, last("energy/surface_drive"), less)],
-                              [needs_surface(1e-6), Idle({"surface_speed": 0, "OPTION": 1e-6}, "with -surface_speed 0")]),
+                              [needs_surface(1e-6),
+                               Idle({"surface_speed": 0, "OPTION": 1e-6}, "with -surface_speed 0")]),
 
     # While the pressure rises, a regularised traction lags behind mu p, and the more so the longer the memory.
     "friction_law": Row([Answer(COULOMB, DRAG, more), Answer(FRICTIONLESS, DRAG, becomes(0))], [needs_surface("none")]),
     "friction_coefficient": Row([Answer({"OPTION": 0.25}, DRAG, less)],
                                 [needs_surface(0.5), Idle({**FRICTIONLESS, "OPTION": 0.5}, "with -friction_law none")]),
     "friction_length": Row([Answer({"OPTION": 1.2e-5}, DRAG, less, base=LENGTH)],
-                           needs_memory(1e-6) + [Idle({"OPTION": 1e-6}, "-friction_time contradicts -friction_length")]),
+                           needs_memory(1e-6) +
+                           [Idle({"OPTION": 1e-6}, "-friction_time contradicts -friction_length")]),
     "friction_time": Row([Answer({"OPTION": 6e-6}, DRAG, less)],
                          needs_memory(1e-6) + [Idle({**BY_SLIP_RATE, "OPTION": 1e-6}, "with -friction_rate slip")]),
     "friction_rate": Row([Answer({"OPTION": "slip", "friction_rate_reference": 20}, DRAG, more, base=LENGTH)],
@@ -235,14 +241,16 @@ ROWS = {
     "friction_rate_reference": Row([Answer({"OPTION": 20}, DRAG, more, base=BY_SLIP_RATE)],
                                    needs_memory(1) + [Idle({"OPTION": 1}, "with -friction_rate surface")]),
     # On a slow surface the strength that lags gives way where mu p would not.
-    "friction_threshold": Row([Answer({"OPTION": "regularized"}, mean("contact/stick"), less, base={"surface_speed": 0.02})],
-                              needs_memory("regularized")),
+    "friction_threshold": Row([Answer({"OPTION": "regularized"}, mean("contact/stick"), less,
+                                      base={"surface_speed": 0.02})], needs_memory("regularized")),
 
-    "history_boundary": Row([Answer({"OPTION": "left"}, lambda run: int("boundary/left/normal_force" in run.history), more)],
-                            ALWAYS),
+    "history_boundary": Row([Answer({"OPTION": "left"},
+                                    lambda run: int("boundary/left/normal_force" in run.history), more)], ALWAYS),
     "history_every": Row([Answer({"OPTION": 10}, lambda run: len(run.history["time"]), becomes(21))], ALWAYS),
     "history_points": Row([Answer({"OPTION": "0,0,1e-3,1e-3,2e-3,1e-3"}, lambda run: int("points/2/u" in run.history),
                                   more)], ALWAYS),
+    # That the rows balance with the forces: test_momentum.py.
+    "history_momentum": Row([Answer({"OPTION": "true"}, lambda run: int("momentum/linear" in run.history), more)], ALWAYS),
     "history_interval": Row([Answer({"history_every": None, "OPTION": 2e-7}, lambda run: len(run.history["time"]),
                                     becomes(21))],
                             [Idle({"OPTION": 2e-7}, "-history_every contradicts -history_interval")]),
@@ -254,7 +262,8 @@ ROWS = {
                            [Idle({"fields_times": "1e-6", "OPTION": 1e-6},
                                  "-fields_interval contradicts -fields_times"),
                             Idle({"fields_every": 5, "OPTION": 1e-6}, "-fields_every contradicts -fields_interval")]),
-    "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))], [needs_surface(10)]),
+    "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))],
+                         [needs_surface(10)]),
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),

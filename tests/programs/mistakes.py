@@ -48,6 +48,7 @@ class Mistaken:
             for file in (*self.files, "notes.txt"):
                 (folder / "out" / file).write_text("of an older run")
         before = snapshot(folder)
-        given = ["-options_file_yaml", "run.yaml"] if mistake.yaml else arguments_of({**self.options, **mistake.changes})
+        typed = arguments_of({**self.options, **mistake.changes})
+        given = ["-options_file_yaml", "run.yaml"] if mistake.yaml else typed
         outcome = getattr(self, self.program)(*given, *mistake.arguments, ranks=RANKS, folder=folder)
         return outcome, before, snapshot(folder)

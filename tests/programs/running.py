@@ -78,8 +78,8 @@ class InScratch(unittest.TestCase):
 
 
 def run(command, folder, environment):
-    done = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          timeout=SECONDS)
+    done = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=SECONDS)
     return Outcome([done.returncode], done.stdout, done.stderr)
 
 

@@ -33,7 +33,8 @@ def block(path, regions=("block",), cells="quadrilaterals", divisions=8, periodi
         lines += [f"Point({2 * k + 1}) = {{0, {y}, 0}};", f"Point({2 * k + 2}) = {{{SIDE}, {y}, 0}};",
                   f"Line({100 + k}) = {{{2 * k + 1}, {2 * k + 2}}};"]
     for k in range(layers):
-        lines += [f"Line({200 + k}) = {{{2 * k + 1}, {2 * k + 3}}};", f"Line({300 + k}) = {{{2 * k + 2}, {2 * k + 4}}};",
+        lines += [f"Line({200 + k}) = {{{2 * k + 1}, {2 * k + 3}}};",
+                  f"Line({300 + k}) = {{{2 * k + 2}, {2 * k + 4}}};",
                   f"Curve Loop({k + 1}) = {{{100 + k}, {300 + k}, -{101 + k}, -{200 + k}}};",
                   f"Plane Surface({k + 1}) = {{{k + 1}}};"]
         if cells == "quadrilaterals" or (cells == "mixed" and k % 2 == 0):
@@ -49,7 +50,8 @@ def block(path, regions=("block",), cells="quadrilaterals", divisions=8, periodi
     if names:
         lines += [f'Physical Surface("{region}") = {{{k + 1}}};' for k, region in enumerate(regions)]
         lines += ['Physical Curve("bottom") = {100};', f'Physical Curve("top") = {{{100 + layers}}};',
-                  f'Physical Curve("left") = {{200:{199 + layers}}};', f'Physical Curve("right") = {{300:{299 + layers}}};']
+                  f'Physical Curve("left") = {{200:{199 + layers}}};',
+                  f'Physical Curve("right") = {{300:{299 + layers}}};']
     geometry = path.with_suffix(".geo")
     geometry.write_text("\n".join(lines) + "\n")
     subprocess.run(["gmsh", "-v", "1", "-3" if depth else "-2", "-format", form, geometry, "-o", path], check=True,

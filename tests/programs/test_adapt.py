@@ -12,7 +12,8 @@ import yaml
 PERIOD = 6.283185307179586
 TRUTH = 0.1
 DRIVE = 0.5 * 1e-4 * PERIOD * 7e-4  # μ N0 V
-POWER = {0.0: 0.435, 0.025: 0.423, 0.05: 0.398, 0.1: 0.332, 0.2: 0.216}  # P_in over it, nx = 64: verification/second_program.py
+# P_in over it, nx = 64: verification/second_program.py
+POWER = {0.0: 0.435, 0.025: 0.423, 0.05: 0.398, 0.1: 0.332, 0.2: 0.216}
 SCENE = {  # c_s = ρ = 1, H = 2, p0/G = 1e-4
     "material_all_young": 2.6, "material_all_poisson": 0.3, "material_all_density": 1, "surface_boundary": "bottom",
     "surface_speed": 7e-4, "friction_law": "regularized", "friction_coefficient": 0.5, "boundary_top_x": "fixed",

@@ -36,29 +36,27 @@ class Command(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name) / "my place"
         cls.folder.mkdir()
-        run("morphology", "-block_width", 5e-3, "-block_height", 2.5e-3, "-shape", "disc", "-diameter", 1e-3, "-fraction",
-            0.3, "-size", 0.25e-3, "-output_folder", "mesh", folder=cls.folder)
+        run("morphology", "-block_width", 5e-3, "-block_height", 2.5e-3, "-shape", "disc", "-diameter", 1e-3,
+            "-fraction", 0.3, "-size", 0.25e-3, "-output_folder", "mesh", folder=cls.folder)
         (cls.folder / "scene.yaml").write_text(SCENE)
         phases = ("-material_matrix_young", 30e9, "-material_matrix_poisson", 0.25, "-material_matrix_density", 1800,
-                  "-material_inclusion_young", 80e9, "-material_inclusion_poisson", 0.25, "-material_inclusion_density", 1800)
+                  "-material_inclusion_young", 80e9, "-material_inclusion_poisson", 0.25,
+                  "-material_inclusion_density", 1800)
         run("homogenize", "-mesh_file", "mesh/mesh.msh", "-cell_boundary", "kubc", *phases, "-output_folder", "cell",
             folder=cls.folder)
         run("slide", "-options_file_yaml", "scene.yaml", "-output_folder", "first run", folder=cls.folder)
-        (cls.folder / "homogeneous.yaml").write_text(SCENE.replace(SCENE.splitlines()[2], "material: {file: cell/effective.yaml}")
-                                                     + "fields_quantities: stress,strain\n")
-        text = (cls.folder / "homogeneous.yaml").read_text().replace("fields: {times: [30e-6, 60e-6]}\nfields_quantities: "
-                                                                      "stress,strain", "fields: {times: [30e-6, 60e-6], "
-                                                                      "quantities: [stress, strain]}")
-        (cls.folder / "homogeneous.yaml").write_text(text)
+        homogeneous = SCENE.replace(SCENE.splitlines()[2], "material: {file: cell/effective.yaml}")
+        homogeneous = homogeneous.replace("30e-6, 60e-6]}", "30e-6, 60e-6], quantities: [stress, strain]}")
+        (cls.folder / "homogeneous.yaml").write_text(homogeneous)
         run("slide", "-options_file_yaml", "homogeneous.yaml", "-output_folder", "second run", folder=cls.folder)
-        run("relocalize", "-relocalize_run", "second run", "-relocalize_tensors", "cell", "-relocalize_points", "2.5e-3,0.3e-3",
-            "-output_folder", "local", folder=cls.folder)
+        run("relocalize", "-relocalize_run", "second run", "-relocalize_tensors", "cell", "-relocalize_points",
+            "2.5e-3,0.3e-3", "-output_folder", "local", folder=cls.folder)
 
     def slipscale(self, *words, code=0):
         """What was said on stdout, or on stderr where it fails."""
         before = {path.name for path in self.folder.iterdir()}
-        done = subprocess.run([COMMAND, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
-                              text=True, timeout=300)
+        done = subprocess.run([COMMAND, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         if code == 2:
             self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), done.stderr)
@@ -72,7 +70,8 @@ class Command(unittest.TestCase):
 
     def test_the_manual_and_the_version(self):
         manual = self.slipscale("-h")
-        for name in ("picture", "cell-picture", "relocalized-picture", "maps", "adapt", "sweep", "table", "compare", "scene"):
+        for name in ("picture", "cell-picture", "relocalized-picture", "maps", "adapt", "sweep", "table", "compare",
+                     "scene"):
             self.assertIn(f"\n  {name} ", manual)
             self.assertIn(f"slipscale {name}", self.slipscale(name, "-h"))
         self.assertRegex(self.slipscale("--version"), r"^slipscale \d+\.\d+\.\d+\nPython 3")
@@ -99,8 +98,8 @@ class Command(unittest.TestCase):
         self.assertIn("two folders", self.slipscale("compare", "first run", code=2))
 
     def test_a_sweep_its_table_and_maps(self):
-        self.assertIn("4 runs", self.slipscale("sweep", "scene.yaml", "-friction_coefficient", "0.3,0.5", "-surface_speed",
-                                               "2,4", "--output", "never", "--dry-run"))
+        self.assertIn("4 runs", self.slipscale("sweep", "scene.yaml", "-friction_coefficient", "0.3,0.5",
+                                               "-surface_speed", "2,4", "--output", "never", "--dry-run"))
         self.assertFalse((self.folder / "never").exists())
         self.slipscale("sweep", "scene.yaml", "-friction_coefficient", "0.3,0.5", "-surface_speed", "2,4", "--output",
                        "my sweep", "--", "-c2")
@@ -111,12 +110,14 @@ class Command(unittest.TestCase):
         self.slipscale("maps", "my sweep/table.csv", "map.png", "--value", "friction")
         self.made("map.png", 10000)
         self.assertIn("no column nothing", self.slipscale("table", "my sweep", "--columns", "nothing", code=2))
-        self.assertIn("no column nothing", self.slipscale("maps", "my sweep/table.csv", "a.png", "--value", "nothing", code=2))
-        self.assertIn("is -friction_coefficient meant?", self.slipscale("sweep", "scene.yaml", "-friction_coeficient", "0.1,0.2",
-                                                                        code=2))
+        self.assertIn("no column nothing", self.slipscale("maps", "my sweep/table.csv", "a.png", "--value", "nothing",
+                                                          code=2))
+        self.assertIn("is -friction_coefficient meant?", self.slipscale("sweep", "scene.yaml", "-friction_coeficient",
+                                                                        "0.1,0.2", code=2))
 
     def test_adapt(self):
-        words = ("adapt", "first run", "second run", "--output", "adapted", "--level", "search", "--points", "3", "--most", "1")
+        words = ("adapt", "first run", "second run", "--output", "adapted", "--level", "search", "--points", "3",
+                 "--most", "1")
         self.assertIn("there is no program nowhere/slide", self.slipscale(*words, "--program", "nowhere/slide", code=2))
         done = subprocess.run([COMMAND, *words], cwd=self.folder, capture_output=True, text=True, timeout=300)
         self.assertIn(done.returncode, (0, 1), done.stderr)  # whether one time is enough, the study of contrast says

@@ -111,8 +111,9 @@ class Overruled(InScratch):
                                for folder in ("read", "typed"))
                 self.assertEqual({**read, "output_folder": "typed"}, plain)
                 aside = [option for option in SCENE if option in meant and meant[option] is None]
-                self.assertEqual(re.findall(r"^note: -(\S+) of scene.yaml .*\(the command line\); it is set aside$", out,
-                                            re.MULTILINE), aside)
+                notes = re.findall(r"^note: -(\S+) of scene.yaml .*\(the command line\); it is set aside$", out,
+                                   re.MULTILINE)
+                self.assertEqual(notes, aside)
                 left, right = (datasets(self.folder / folder / "history.h5") for folder in ("read", "typed"))
                 for dataset in left:
                     np.testing.assert_array_equal(left[dataset], right[dataset], dataset)

@@ -32,7 +32,9 @@ class Terminal(InScratch):
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_version(self):
-        self.assertRegex(self.slide("-version").out, r"\Aslide \d+\.\d+\.\d+( \(commit [0-9a-f]{12}(-dirty)?\))?, PETSc 3\.\d+\.\d+, .*MPI.*, HDF5 1\.\d+\.\d+\n\Z")
+        self.assertRegex(self.slide("-version").out,
+                         r"\Aslide \d+\.\d+\.\d+( \(commit [0-9a-f]{12}(-dirty)?\))?, "
+                         r"PETSc 3\.\d+\.\d+, .*MPI.*, HDF5 1\.\d+\.\d+\n\Z")
 
     def test_log_view_has_the_stages(self):
         block(self.folder / "block.msh")
@@ -176,8 +178,8 @@ class Running(InScratch):
     def start(self, ranks):
         """A job that would run for hours, and the processes of its ranks."""
         scene = {**SQUEAL, "time_end": 100, "history_every": 20, "contact_every": 1000}
-        command = [MPIEXEC, "-n", str(ranks), "bash", "-c", 'echo $$ > pid.$OMPI_COMM_WORLD_RANK; exec "$0" "$@"', SLIDE,
-                   *arguments_of(scene)]
+        script = 'echo $$ > pid.$OMPI_COMM_WORLD_RANK; exec "$0" "$@"'
+        command = [MPIEXEC, "-n", str(ranks), "bash", "-c", script, SLIDE, *arguments_of(scene)]
         job = subprocess.Popen(command, cwd=self.folder, env=self.environment(), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(self.kill, job, ranks)

@@ -29,12 +29,16 @@ Circle(9) = {10, 9, 11}; Circle(10) = {11, 9, 10}; Curve Loop(2) = {9, 10}; Curv
 """
 GEOMETRIES = {
     "square": SQUARE + CURVES + MATRIX,
-    "tags": SQUARE + 'Physical Curve("bottom", 3) = {1}; Physical Curve("top", 1) = {3}; Physical Surface("matrix", 2) = {1};',
-    "backwards": SQUARE + 'Physical Curve("bottom") = {-1}; Physical Curve("top") = {-3}; Physical Surface("matrix") = {-1};',
-    "several": SQUARE + CURVES + 'Physical Curve("around") = {1, -2, 3, 4}; Physical Curve("sides") = {2, -4};' + MATRIX,
+    "tags": SQUARE + 'Physical Curve("bottom", 3) = {1}; Physical Curve("top", 1) = {3}; '
+            'Physical Surface("matrix", 2) = {1};',
+    "backwards": SQUARE + 'Physical Curve("bottom") = {-1}; Physical Curve("top") = {-3}; '
+                 'Physical Surface("matrix") = {-1};',
+    "several": SQUARE + CURVES + 'Physical Curve("around") = {1, -2, 3, 4}; '
+               'Physical Curve("sides") = {2, -4};' + MATRIX,
     "quadrilaterals": SQUARE + "Transfinite Surface{1}; Recombine Surface{1};" + CURVES + MATRIX,
     "mixed": LAYERS + "Recombine Surface{1};" + CURVES,
-    "layers": LAYERS + 'Physical Curve("bottom", 11) = {1}; Physical Curve("interface", 7) = {3}; Physical Curve("top", 12) = {6};',
+    "layers": LAYERS + 'Physical Curve("bottom", 11) = {1}; Physical Curve("interface", 7) = {3}; '
+              'Physical Curve("top", 12) = {6};',
     "hole": HOLE + "Plane Surface(1) = {1, 2};" + CURVES + 'Physical Curve("rim") = {9, -10};' + MATRIX,
     "inclusion": HOLE + "Plane Surface(1) = {1, 2}; Plane Surface(2) = {2};" + CURVES + MATRIX +
     'Physical Surface("inclusion") = {2};',

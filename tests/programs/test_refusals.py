@@ -1,4 +1,4 @@
-"""Mistakes in a scene: one sentence that names the option or the mesh entity, exit code 2 on every rank, no file touched.
+"""Mistakes in a scene: one sentence naming the option or the mesh entity, exit code 2 on every rank, no file touched.
 
 SLIPSCALE_RANKS says on how many ranks.
 """
@@ -63,7 +63,8 @@ MISTAKES = {
     "region misspelt": Mistake(["region 'matirx'", "did you mean -material_matrix_young?", "matrix, inclusion"],
                                {"material_matrix_young": None, "material_matirx_young": 30e9}),
     "region unknown": Mistake(["region 'steel'", "the mesh has matrix, inclusion"], {"material_steel_young": 1e9}),
-    "boundary misspelt": Mistake(["boundary 'tpo'", "did you mean -boundary_top_pressure?"], {"boundary_tpo_pressure": 1e6}),
+    "boundary misspelt": Mistake(["boundary 'tpo'", "did you mean -boundary_top_pressure?"],
+                                 {"boundary_tpo_pressure": 1e6}),
     "boundary unknown": Mistake(["boundary 'ceiling'", "bottom, top, left, right"], {"boundary_ceiling_pressure": 1e6}),
     "contact boundary unknown": Mistake(["-surface_boundary", "no boundary 'floor'", "bottom, top, left, right"],
                                         {"surface_boundary": "floor"}),
@@ -71,9 +72,10 @@ MISTAKES = {
     "option unknown": Mistake(["-wind_speed is not an option of slide"], {"wind_speed": 3}),
     "option misspelt": Mistake(["-fricton_coefficient is not an option", "did you mean -friction_coefficient?"],
                                {"fricton_coefficient": 0.3}),
-    "option in capitals": Mistake(["differs in capitals", "write -friction_coefficient"], 
+    "option in capitals": Mistake(["differs in capitals", "write -friction_coefficient"],
                                  {"friction_coefficient": None, "Friction_Coefficient": 0.3}),
-    "option misspelt in the file": Mistake(["-friction_coeficient is not an option", "did you mean -friction_coefficient?"],
+    "option misspelt in the file": Mistake(["-friction_coeficient is not an option",
+                                            "did you mean -friction_coefficient?"],
                                            yaml="friction: {coeficient: 0.3}\n"),
     # Materials
     "no material": Mistake(["region 'inclusion' has no material", "-material_inclusion_young"],
@@ -152,7 +154,8 @@ MISTAKES = {
     "rows within a step": Mistake(["-history_interval is 1e-12 s", "less than the step", "give at least that"],
                                   {"history_every": None, "history_interval": 1e-12}),
     "rows every zero steps": value("history_every", 0, ">= 1"),
-    "folder is a file": Mistake(["-output_folder 'composite.msh'", "give a folder"], {"output_folder": "composite.msh"}),
+    "folder is a file": Mistake(["-output_folder 'composite.msh'", "give a folder"],
+                                {"output_folder": "composite.msh"}),
     "folder in a file": Mistake(["-output_folder 'composite.msh/out'", "cannot be created"],
                                 {"output_folder": "composite.msh/out"}),
     "folder that nobody can make": Mistake(["-output_folder '/proc/slipscale'", "cannot be created"],
@@ -164,7 +167,8 @@ MISTAKES = {
     "mesh is no mesh": Mistake(["-mesh_file", "'prose.msh' is not a gmsh mesh"], {"mesh_file": "prose.msh"}),
     "mesh truncated": Mistake(["'truncated.msh'"], {"mesh_file": "truncated.msh"}),
     "mesh solid": Mistake(["'solid.msh' has 3-dimensional cells", "plane"], {"mesh_file": "solid.msh"}),
-    "mesh without names": Mistake(["'nameless.msh' names no region", "Physical Surface"], {"mesh_file": "nameless.msh"}),
+    "mesh without names": Mistake(["'nameless.msh' names no region", "Physical Surface"],
+                                  {"mesh_file": "nameless.msh"}),
     "mesh periodic in MSH 2": Mistake(["'old_torus.msh'", "MSH 2", "lose its periodicity", "gmsh -2 -format msh41"],
                                       {"mesh_file": "old_torus.msh"}),
     "mesh too narrow": Mistake(["'narrow.msh'", "fewer than three cells"], {"mesh_file": "narrow.msh"}),
@@ -178,7 +182,8 @@ MISTAKES = {
     # Spelling of the command line and of the file
     "equals sign": Mistake(["--time_beta2=0.5", "write -time_beta2 0.5"], arguments=["--time_beta2=0.5"]),
     "stray word": Mistake(["'stray' belongs to no option"], arguments=["stray"]),
-    "history of PETSc": Mistake(["-history is not an option of slide", "did you mean -history_"], arguments=["-history"]),
+    "history of PETSc": Mistake(["-history is not an option of slide", "did you mean -history_"],
+                                arguments=["-history"]),
     "value missing": Mistake(["-time_beta2 has no value"], arguments=["-time_beta2"]),
     "value missing in the file": Mistake(["-time_beta2 has no value"], yaml="time: {beta2: }\n"),
     "file missing": Mistake(["cannot read 'absent.yaml'"], arguments=["-options_file_yaml", "absent.yaml"]),

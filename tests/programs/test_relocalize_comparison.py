@@ -4,7 +4,6 @@ ranks, as XDMF, as a picture."""
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path

@@ -104,8 +104,8 @@ class Statistics(InScratch):
         self.assertFalse((out / "statistics.h5").exists() or (out / "statistics.xdmf").exists(), "of the older run")
 
     def test_are_kept_when_the_run_goes_astray(self):
-        """Energies beyond all numbers end the run; the samples before are those of a run that ends there. The block is as
-        fast as ever, but so soft and light beside its load that p²/E overflows while p and u do not."""
+        """Energies beyond all numbers end the run; the samples before are those of a run that ends there. The block is
+        as fast as ever, but so soft and light beside its load that p²/E overflows while p and u do not."""
         block(self.folder / "block.msh")
         less = 1e-128
         scene = {**SCENE, "boundary_top_y": None, "boundary_top_pressure": 1e99, "boundary_top_ramp": 1e-5,
@@ -120,8 +120,9 @@ class Statistics(InScratch):
         self.assertEqual([int(told[2])] * 2, [int(told[1]), about["samples"]])  # steps 0 to the last good one
         self.assertGreater(about["samples"], 1)
         good = int(told[1]) - 1
-        self.assertRegex(outcome.err, rf"the energy is too large for a number; node \d+ \(x = .* m, y = .* m, region \w+\) is "
-                                      rf"displaced most, by .*up to step {good}, with a last frame of step {good}, is kept")
+        self.assertRegex(outcome.err, r"the energy is too large for a number; node \d+ \(x = .* m, y = .* m, region \w+"
+                                      rf"\) is displaced most, by .*up to step {good}, with a last frame of step "
+                                      rf"{good}, is kept")
         self.assertRegex(outcome.err, "The loads are too large for the stiffness")
         frames, times = self.frames(0, 1)
         self.assertEqual(about["samples"], len(times))

@@ -20,7 +20,7 @@ class Contrast(studies.StudyCase):
             self.assertLess(float(row["energy_residual"]), 1e-10)
             self.assertLessEqual(float(row["friction"]), 0.5 + 1e-9)  # the coefficient
         for young in ("80", "300"):
-            # Between the bounds of Reuss and Voigt of the longitudinal modulus, 1.2 E at ν = .25, area fraction .3 ± .05.
+            # Between the bounds of Reuss and Voigt of the longitudinal modulus, 1.2 E at ν = .25, fraction .3 ± .05.
             soft, stiff = 1.2 * 30e9, 1.2e9 * float(young)
             for row in self.rows(young=young, model="homogeneous"):
                 self.assertLess(float(row["C11"]), 0.65 * soft + 0.35 * stiff)
@@ -44,7 +44,8 @@ class Contrast(studies.StudyCase):
         self.assertLess(abs(float(density["after_frequency"])), 0.02)  # which the density moves at will
 
         text = (self.out / "report.md").read_text()
-        for words in ("| 5 | 80 | 3 |", "| 5 | 300 | 3 |", "Why adaptations failed", "Adapting density, then T, by search: "):
+        for words in ("| 5 | 80 | 3 |", "| 5 | 300 | 3 |", "Why adaptations failed",
+                      "Adapting density, then T, by search: "):
             self.assertIn(words, text)
         for name in ("scatter", "adapted"):
             self.assertGreater((self.out / f"{name}.png").stat().st_size, 30000)

@@ -1,4 +1,5 @@
-"""Every study as a plan: its Snakefile, study.yaml and reduced.yaml are taken, and so many jobs follow. Nothing is run."""
+"""Every study as a plan: its Snakefile, study.yaml and reduced.yaml are taken, and so many jobs follow. Nothing is
+run."""
 
 import re
 import subprocess

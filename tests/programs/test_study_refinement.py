@@ -1,4 +1,5 @@
-"""The refinement study in small: orders, what is run again, a failure as a row, another family of meshes by one file."""
+"""The refinement study in small: orders, what is run again, a failure as a row, another family of meshes by one
+file."""
 
 import csv
 import math
@@ -30,8 +31,8 @@ class Refinement(studies.StudyCase):
     def test_refinement_and_what_is_run_again(self):
         self.run_study()
         self.assertEqual({row["status"] for row in self.table()}, {"ok"})
-        # The paper's claim: trajectories under Coulomb friction are not those of a finer mesh (√2: unrelated), under the
-        # regularised law they tend to them. The contact loses O(h) in impacts, so the order is 1 or more.
+        # The paper's claim: trajectories under Coulomb friction are not those of a finer mesh (√2: unrelated), under
+        # the regularised law they tend to them. The contact loses O(h) in impacts, so the order is 1 or more.
         self.assertGreater(min(self.errors("before", "coulomb", "velocity")), 0.8)
         errors = self.errors("before", "T300", "velocity")
         self.assertEqual(len(errors), 3)
@@ -65,7 +66,8 @@ class Refinement(studies.StudyCase):
             "mesh/wide_0.001", "run/undamped_wide_coulomb_0.001_2e-08", "run/undamped_wide_T300_0.001_2e-08",
             "run/damped_block_T600_0.0005_1e-06", "picture/before", "picture/unstable"})
         failed = [row for row in self.table() if row["status"] != "ok"]
-        self.assertEqual([(row["sequence"], row["step"], row["quantity"]) for row in failed], [("unstable", "1e-06", "")])
+        self.assertEqual([(row["sequence"], row["step"], row["quantity"]) for row in failed],
+                         [("unstable", "1e-06", "")])
         self.assertIn("stable", failed[0]["reason"])
         self.assertIn(failed[0]["reason"], (self.out / "report.md").read_text())
 

@@ -14,6 +14,13 @@ class Sweep(studies.StudyCase):
     def measured(self):
         return [{name: value for name, value in row.items() if name not in NOT_MEASURED} for row in self.table()]
 
+    def fails(self, **changes):
+        """What it said; it must fail with exit code 1."""
+        done = subprocess.run(self.command(**changes), capture_output=True, text=True, env=self.environment(),
+                              timeout=studies.SECONDS)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
     def test_a_map_on_any_number_of_ranks(self):
         self.run_study()
         rows = self.table()
@@ -80,13 +87,30 @@ class Sweep(studies.StudyCase):
         self.assertIn("4 runs, 3 failed", (self.out / "report.md").read_text())
         self.assertGreater((self.out / "picture" / "picture.png").stat().st_size, 10000)
 
-        # A window without rows is a failure of its run as well, and one more value adds its runs only.
+        # A window without rows is a failure of its run as well, and one more value adds its runs only. Failures alone
+        # are no result, today and tomorrow: table and report are there, and the study fails with a sentence.
         before = self.written()
         sweep["friction_coefficient"] = [0.3, -0.5, 0.4]
-        self.run_study(**{**TINY, "sweep": {**sweep, "size": 1e-3}, "window": [1.0, 2.0]})
+        changes = {**TINY, "sweep": {**sweep, "size": 1e-3}, "window": [1.0, 2.0]}
+        for _ in range(2):
+            self.assertIn("None of the 6 rows of out/sweep-reduced/table.csv is of a run that came to its end; the "
+                          "first: Only 0 rows", self.fails(**changes))
         self.assertEqual(len([name for name in self.run_again(before) if name.startswith("run/")]), 2)
         self.assertEqual([row["status"] for row in self.table()], ["failed"] * 6)
         self.assertIn("choose another window", self.table()[0]["reason"])
+        self.assertIn("6 runs, 6 failed", (self.out / "report.md").read_text())
+
+    def test_few_rows_give_what_they_know(self):
+        """Of 16 rows of history friction is known, a frequency is not."""
+        self.run_study(**{**TINY, "scene": {"time": {"end": 40e-6, "step": 20e-9}, "history": {"every": 62}},
+                          "sweep": {"friction_coefficient": [0.3], "surface_speed": 2, "size": 1e-3}})
+        row = self.table()[0]
+        self.assertEqual((row["status"], row["frequency"]), ("ok", ""))
+        self.assertRegex(row["reason"], "^Only 1[67] rows are recorded")
+        self.assertLess(float(row["friction"]), 0.3)
+        for name in ("friction_error", "amplitude", "stick", "slip", "open", "regime", "settled"):
+            self.assertNotEqual(row[name], "", name)
+        self.assertIn("In part: ", (self.out / "report.md").read_text())
 
     def test_a_mistake_is_one_sentence_before_anything_runs(self):
         for sweep, sentence in (({"friction_coeficient": [0.1]}, "is -friction_coefficient meant?"),

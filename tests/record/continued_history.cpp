@@ -24,7 +24,7 @@ struct Sliding {
   Sliding(const Mesh& mesh, bool with_surface)
       : model(mesh, {scene_r_material()}, Model::Storage::full),
         body(world, model, scene_of(with_surface), 2e-8),
-        observer(body),
+        observer(body, false),
         probes(world, model, {{1e-3, 2e-3}}) {}
 
   /// Makes all steps; writes those from `from` on, continuing files that have so many rows.
@@ -36,7 +36,7 @@ struct Sliding {
     const bool surface = body.scene().surface.has_value();
     std::vector<Observation> rows;
     if (is_root(world)) {
-      history.emplace(name + ".history.h5", body, probes.positions(), steps, continued);
+      history.emplace(name + ".history.h5", body, probes.positions(), false, steps, continued);
       if (surface) contact.emplace(name + ".contact.h5", observer, steps, continued);
       rows = history->rows_so_far();
       EXPECT_EQ(history->series().refusal(), "");

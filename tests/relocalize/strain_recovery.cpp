@@ -3,6 +3,7 @@
 #include <random>
 
 #include "grids.hpp"
+#include "report.hpp"
 #include "slipscale/relocalize/strain_recovery.hpp"
 
 using namespace slipscale;
@@ -33,7 +34,7 @@ double largest_error(const PlaneGrid& grid, Recovery recovery, const Field& fiel
   recover(std::span<const std::array<double, 3>>(cells), found);
   double worst = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    worst = std::max(worst, std::abs(found[k][0] - field(points[k])));
+    worst = worse(worst, std::abs(found[k][0] - field(points[k])));
     EXPECT_NEAR(found[k][1], -found[k][0], 1e-13);
     EXPECT_NEAR(found[k][2], 1, 1e-13);
   }

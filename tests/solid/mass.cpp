@@ -52,7 +52,7 @@ TEST(Mass, ElementEigenvalueBoundsTheFrequency) {
     const Mesh mesh = block_mesh(block_of(body));
     const Model model(mesh, two_materials(), Model::Storage::full);
     const FrequencyBounds bounds = largest_frequency(PETSC_COMM_WORLD, model);
-    EXPECT_NEAR(bounds.safe * bounds.safe, element_eigenvalue_bound(PETSC_COMM_WORLD, mesh, two_materials()),
+    EXPECT_NEAR(bounds.safe * bounds.safe, critical_cell(PETSC_COMM_WORLD, mesh, two_materials()).eigenvalue,
                 1e-12 * bounds.safe * bounds.safe);
     EXPECT_LE(bounds.sharp, bounds.safe * 1.001);  // the sharp one is rounded up to four digits
     EXPECT_GT(bounds.sharp, 0);

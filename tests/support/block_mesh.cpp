@@ -206,13 +206,24 @@ void write_block(const Block& block, const std::string& path) {
   MPI_Barrier(PETSC_COMM_WORLD);
 }
 
+namespace {
+
+std::filesystem::path scratch_folder;
+
+}  // namespace
+
 std::string scratch(const std::string& name) {
   static int calls = 0;
   int process = static_cast<int>(getpid());
   MPI_Bcast(&process, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  const auto folder = std::filesystem::temp_directory_path() / ("slipscale-test-" + std::to_string(process));
-  std::filesystem::create_directories(folder);
-  return (folder / (std::to_string(++calls) + "-" + name)).string();
+  scratch_folder = std::filesystem::temp_directory_path() / ("slipscale-test-" + std::to_string(process));
+  std::filesystem::create_directories(scratch_folder);
+  return (scratch_folder / (std::to_string(++calls) + "-" + name)).string();
+}
+
+void remove_scratch() {
+  std::error_code ignored;  // another rank may have been faster
+  if (!scratch_folder.empty()) std::filesystem::remove_all(scratch_folder, ignored);
 }
 
 }  // namespace slipscale::testing_support

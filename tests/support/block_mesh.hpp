@@ -26,6 +26,10 @@ struct Block {
 void write_block(const Block& block, const std::string& path);
 
 /// A file name below the system's folder for temporary files, the same on every rank, new for every call.
+/// Collective.
 std::string scratch(const std::string& name);
+
+/// Removes what `scratch` made room for; main() does when all tests have passed.
+void remove_scratch();
 
 }  // namespace slipscale::testing_support

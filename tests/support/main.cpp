@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
+#include "block_mesh.hpp"
 #include "slipscale/base/parallel.hpp"
 
 /// Runs the tests of one executable on every rank; only rank 0 prints, unless another rank fails.
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   int failed = RUN_ALL_TESTS();
   if (testing::UnitTest::GetInstance()->test_to_run_count() == 0) failed = 1;  // nothing run is no success
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  if (failed == 0) slipscale::testing_support::remove_scratch();
   if (PetscFinalize()) failed = 1;
   MPI_Finalize();
   return failed;

@@ -101,7 +101,7 @@ TEST(Laminate, OfTwoIsotropicLayersIsExact) {
       found = found_laminate(shape, axis);
       const double error = relative_difference(found, exact);
       EXPECT_LE(error, rounding) << "axis " << axis;
-      worst = std::max(worst, error);
+      worst = worse(worst, error);
     }
     const std::string topic = format("Laminate 30/80 GPa, half and half, normal {}", axis == 0 ? 'x' : 'y');
     report({topic, "C along the layers; C across; C12; C66, GPa",
@@ -127,7 +127,7 @@ TEST(Laminate, OfAnisotropicAndThreeLayersIsExact) {
       EXPECT_GT(std::abs(exact(0, 2)), 1e9);  // the coupling is of a size that shows
       const double error = relative_difference(solve(mesh, materials).stiffness, exact);
       EXPECT_LE(error, rounding) << "axis " << axis;
-      worst = std::max(worst, error);
+      worst = worse(worst, error);
     }
   report({"Laminate, three layers, one anisotropic", "largest relative error, P1 and Q1, normals x and y",
           "<= 1e-10", shown_error(worst, 1e-12), "", "exact solution"});
@@ -146,12 +146,12 @@ TEST(HomogeneousCell, HasItsOwnStiffness) {
       block.distortion = 0.2;
       block.periodic_x = block.periodic_y = boundary == CellBoundary::periodic;
       const CellSolution solution = solve(block_mesh(block), {anisotropic()}, boundary);
-      double error = std::max(relative_difference(solution.stiffness, anisotropic().stiffness),
-                              relative_difference(solution.energy_stiffness, anisotropic().stiffness));
+      double error = worse(relative_difference(solution.stiffness, anisotropic().stiffness),
+                           relative_difference(solution.energy_stiffness, anisotropic().stiffness));
       for (const Eigen::Matrix3d& a : solution.localisation)
-        error = std::max(error, largest(a - Eigen::Matrix3d::Identity()));
+        error = worse(error, largest(a - Eigen::Matrix3d::Identity()));
       EXPECT_LE(error, rounding) << name(boundary);
-      worst = std::max(worst, error);
+      worst = worse(worst, error);
     }
   report({"Homogeneous cell, anisotropic, distorted mesh",
           "largest relative error of C and of A - I, periodic, kubc and subc", "<= 1e-10",

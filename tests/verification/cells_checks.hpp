@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report.hpp"
 #include "scenes.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/homogenize/cell_problem.hpp"
@@ -16,12 +17,6 @@ inline double largest(const Eigen::Matrix3d& m) { return m.cwiseAbs().maxCoeff()
 /// Largest difference of two stiffnesses over the largest component of the second.
 inline double relative_difference(const Eigen::Matrix3d& found, const Eigen::Matrix3d& expected) {
   return largest(found - expected) / largest(expected);
-}
-
-/// An error for the table: rounding errors differ from rank count to rank count, so only their bound is
-/// shown.
-inline std::string shown_error(double error, double rounding) {
-  return error < rounding ? format("< {:.0e}", rounding) : format("{:.1e}", error);
 }
 
 /// PETSc options that hold while the object lives.

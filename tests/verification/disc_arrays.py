@@ -42,8 +42,8 @@ def potentials(z, powers, scale):
 
 
 def rows(z, powers, scale, solid):
-    """Displacement u + iv and resultant F (traction (t_x + i t_y) ds = -i dF, normal to the right) as real rows [2 points]
-    over the real unknowns: real and imaginary parts of the coefficients of φ, then of ψ."""
+    """Displacement u + iv and resultant F (traction (t_x + i t_y) ds = -i dF, normal to the right) as real rows
+    [2 points] over the real unknowns: real and imaginary parts of the coefficients of φ, then of ψ."""
     f, df, _ = potentials(z, powers, scale)
     z = np.asarray(z)[:, None]
     columns = []

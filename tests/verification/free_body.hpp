@@ -41,8 +41,7 @@ class FreeBody {
     first_ = false;
     u_.end_update();
     const BulkArrays arrays{inverse_mass_.data(), force_.data(), nullptr, u_.data(), w_.data(), nullptr};
-    BulkSums sums;
-    const FreeMotion<BulkPhysics{}> move(arrays, step, {}, {0, 0}, sums);
+    const FreeMotion move(BulkPhysics{}, model_.kernel.instructions, arrays, step, {}, {0, 0}, {}, {});
     std::get<PairStiffness<double>>(model_.stiffness).multiply(u_.data(), force_.data(), move);
     u_.begin_update();
   }

@@ -115,7 +115,7 @@ TEST(FrictionLaw, ReversesAndSticks) {
         for (const long steps : {1250, 2500, 5000}) {
           const double error = std::abs(displacement_at(column, end, steps) - expected);
           EXPECT_LE(error, end / static_cast<double>(steps)) << law.text << ", " << motion.text;
-          if (steps == 5000) worst = std::max(worst, error);
+          if (steps == 5000) worst = worse(worst, error);
         }
       }
     report({"One degree of freedom, m = k = mu p = 1, T = 0.3 s, dt 1 ms",

@@ -1,12 +1,12 @@
-"""A second program for the same discrete equations, written apart from slipscale: one block of equal bilinear rectangles on
-a moving rigid surface, in NumPy, one process.
+"""A second program for the same discrete equations, written apart from slipscale: one block of equal bilinear
+rectangles on a moving rigid surface, in NumPy, one process.
 
     python3 tests/verification/second_program.py scene_r [h in mm, default .25] [--cycle]
     python3 tests/verification/second_program.py strip [S1 | S2] [nx, default 32] [--step .2] [--relaxation .1]
 
-What agreement with it shows: that two programs solve the same discrete equations. It says nothing about the equations, for
-which the exact solutions of the other tests stand. It knows central differences (β2 = ½), stiffness damping lagged by a step,
-a regularised law with constant relaxation time and both thresholds; nothing else.
+What agreement with it shows: that two programs solve the same discrete equations. It says nothing about the equations,
+for which the exact solutions of the other tests stand. It knows central differences (β2 = ½), stiffness damping lagged
+by a step, a regularised law with constant relaxation time and both thresholds; nothing else.
 """
 
 import argparse
@@ -138,7 +138,8 @@ def scene_r(spacing):
     """Scene R at Δt/h = 20 ns/mm, threshold regularized."""
     n = round(5e-3 / spacing)
     top = lambda t: (0, -1.3888888888888889e-6 * (0.5 * (1 - np.cos(np.pi * t / 40e-6)) if t < 40e-6 else 1))
-    return Sliding(Block(n, n, 5e-3, 5e-3, 45e9, 0.25, 1800), 20e-9 / 1e-3 * spacing, 2, 0.5, 0.6e-6, "regularized", 2e-9, top)
+    block = Block(n, n, 5e-3, 5e-3, 45e9, 0.25, 1800)
+    return Sliding(block, 20e-9 / 1e-3 * spacing, 2, 0.5, 0.6e-6, "regularized", 2e-9, top)
 
 
 def readings(body, times):
@@ -154,8 +155,8 @@ def readings(body, times):
 
 
 def cycle(body, begin=250e-6, end=400e-6):
-    """Over [begin, end]: mean T over mean N at the top, dominant frequency of T in Hz, rms of v_M, sticking and open parts
-    of the nodes."""
+    """Over [begin, end]: mean T over mean N at the top, dominant frequency of T in Hz, rms of v_M, sticking and open
+    parts of the nodes."""
     middle, first, last = len(body.block.x) // 2, round(begin / body.dt), round(end / body.dt)
     every, sums, tangential = round(20e-9 / body.dt), np.zeros(4), []
     while body.n <= last:
@@ -176,8 +177,8 @@ def cycle(body, begin=250e-6, end=400e-6):
 
 def strip(regime, nx, step=0.4, relaxation=0.2, threshold=None, seed=0.01):
     """Means over t in [200, 400] of a strip in sustained instability: friction, load, power into the body, open part,
-    sticking part. S1 slips and separates (instantaneous threshold), S2 sticks as well (regularized). `step` over 2/ω_max,
-    `seed` v_x over V."""
+    sticking part. S1 slips and separates (instantaneous threshold), S2 sticks as well (regularized). `step` over
+    2/ω_max, `seed` v_x over V."""
     length, p0, mu = 2 * np.pi, 1e-4, 0.5
     speed, own_threshold = {"S1": (7e-4, "instantaneous"), "S2": (2e-4, "regularized")}[regime]
     block = Block(nx, {32: 10, 64: 20, 128: 41}[nx], length, 2, 2.6, 0.3, 1, periodic=True)
@@ -199,7 +200,8 @@ def strip(regime, nx, step=0.4, relaxation=0.2, threshold=None, seed=0.01):
             steps += 1
         last = body.before[0, 0]
     load = p0 * length
-    return sums[0] / sums[1], sums[1] / steps / load, sums[2] / steps / (mu * load * speed), sums[3] / steps, sums[4] / steps
+    power = mu * load * speed
+    return sums[0] / sums[1], sums[1] / steps / load, sums[2] / steps / power, sums[3] / steps, sums[4] / steps
 
 
 def main():

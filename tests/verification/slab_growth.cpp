@@ -193,7 +193,7 @@ TEST(GridScaleMode, GrowsFasterOnEveryFinerMeshWithCoulomb) {
 
 /// The same with c_s T = 2h: no wave of up to 8h grows at more than a tenth of that rate. What is left is the
 /// slab's own instability.
-TEST(GridScaleMode, IsAbsentWithTheRegularizedLaw) {
+TEST(GridScaleMode, IsAbsentWithTheRegularisedLaw) {
   std::array<double, 2> largest{};
   double coulomb = 0;
   for (std::size_t level = 0; level < 2; ++level) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "report.hpp"
+
 namespace slipscale::testing_support {
 namespace {
 
@@ -172,7 +174,7 @@ double largest_difference(const State& expected, const State& found) {
     for (int c = 0; c < 4; ++c) {
       const double difference = std::abs(values[c] - match->second[c]);
       if (!std::isfinite(difference)) return infinite;
-      worst[c] = std::max(worst[c], difference);
+      worst[c] = worse(worst[c], difference);
       largest[c] = std::max(largest[c], std::abs(values[c]));
     }
   }

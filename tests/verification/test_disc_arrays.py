@@ -1,4 +1,4 @@
-"""disc_arrays.py: its solution meets what is known exactly, and its digits are those that the C++ tests compare with."""
+"""disc_arrays.py: its solution meets what is known exactly; its digits are those that the C++ tests compare with."""
 
 import unittest
 from pathlib import Path

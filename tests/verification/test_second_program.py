@@ -1,4 +1,4 @@
-"""second_program.py has the digits that the C++ tests compare slipscale with; the finer meshes by hand, see README.md."""
+"""second_program.py has the digits that the C++ tests compare slipscale with; the finer meshes by hand: README.md."""
 
 import unittest
 
@@ -23,7 +23,8 @@ class SecondProgram(unittest.TestCase):
 
     def test_sustained_instability(self):
         """sustained.cpp, on the coarsest mesh."""
-        for regime, expected in (("S1", (0.4444, 1.1234, 0.2280, 0.541)), ("S2", (0.4277, 1.0992, 0.6742, 0.520, 0.125))):
+        for regime, expected in (("S1", (0.4444, 1.1234, 0.2280, 0.541)),
+                                 ("S2", (0.4277, 1.0992, 0.6742, 0.520, 0.125))):
             for found, value in zip(strip(regime, 32), expected):
                 self.assertAlmostEqual(found, value, delta=6e-4, msg=regime)
 

@@ -70,7 +70,7 @@ Outcome one_period(const Model& model, const PlaneWave& wave, long steps) {
   for (long n = 1; n <= steps; ++n) {
     body.advance();
     const double phase = 2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(steps);
-    error = std::max(error, body.relative_error([&](const Vector2& x) { return at(x, 1, phase); }));
+    error = worse(error, body.relative_error([&](const Vector2& x) { return at(x, 1, phase); }));
   }
   const auto after = body.component(wave_number, wave.polarisation, everywhere);
   const double late = std::arg(after / before);  // behind the exact wave, which is back where it began

@@ -22,6 +22,13 @@ class RunError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The run was asked to stop and has left all that it takes to go on: one sentence that says how. Must be
+/// thrown on every rank, like `UserError`; exit code 3.
+class Interruption : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A library (PETSc, METIS, HDF5, …) reported a failure that is not a mistake of the user; exit code 1.
 class LibraryError : public std::runtime_error {
  public:

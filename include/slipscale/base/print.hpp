@@ -10,6 +10,9 @@ namespace slipscale {
 /// Prints to standard output on rank 0 of PETSC_COMM_WORLD and flushes.
 void print(const std::string& text);
 
+/// Prints each on a line of its own behind `note: `: what was made of the input, for the user to see.
+void print_notes(const std::vector<std::string>& notes);
+
 /// The text with everything that begins a new line, in any alphabet, as a blank and other control characters
 /// as \x1b: what a name of the user may hold.
 std::string one_line(const std::string& text);

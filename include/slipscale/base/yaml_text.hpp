@@ -17,6 +17,8 @@ struct YamlEntry {
 /// The text of a file, read by rank 0 of MPI_COMM_WORLD and given to all. Throws `UserError` naming `option`,
 /// with its dash, when it cannot be read. Collective.
 std::string read_on_all(const std::string& option, const std::string& file);
+/// Rank 0's text, on all ranks. Collective.
+std::string text_on_all(std::string text);
 
 /// The options of a YAML text, by the rule of `src/base/scene_file.hpp`. Throws `UserError`, which begins
 /// with `file` and names the line. Time and memory are proportional to the text.

@@ -56,7 +56,7 @@ struct Coulomb {
 /// frictional contact", Int. J. Solids Struct. 45 (2008) 2451). After A. Cochard, J. R. Rice, J. Geophys.
 /// Res. 105 (2000) 25891. `rate: surface`: T = L*/|V| is one constant. Threshold `instantaneous`, the
 /// paper's: sticks while |τ*| ≤ μp(t), the memory is the traction.
-struct RegularizedInstantaneous {
+struct RegularisedInstantaneous {
   static constexpr bool uses_slip_rate = false;
   double coefficient;
   Relaxation step;
@@ -65,7 +65,7 @@ struct RegularizedInstantaneous {
 
 /// Threshold `regularized`: a stored strength relaxes to μp always, stick or slip, and |τ*| is compared with
 /// it.
-struct RegularizedStrength {
+struct RegularisedStrength {
   static constexpr bool uses_slip_rate = false;
   double coefficient;
   Relaxation step;

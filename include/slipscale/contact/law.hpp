@@ -9,8 +9,8 @@
 
 namespace slipscale {
 
-using FrictionLaw = std::variant<Frictionless, Coulomb, RegularizedInstantaneous, RegularizedStrength,
-                                 SlipRate<RegularizedInstantaneous>, SlipRate<RegularizedStrength>>;
+using FrictionLaw = std::variant<Frictionless, Coulomb, RegularisedInstantaneous, RegularisedStrength,
+                                 SlipRate<RegularisedInstantaneous>, SlipRate<RegularisedStrength>>;
 
 /// What the user asks of friction; independent of the time step.
 struct FrictionChoice {

@@ -2,16 +2,25 @@
 
 #include "slipscale/base/vector2.hpp"
 #include "slipscale/dynamics/scheme.hpp"
+#include "slipscale/solid/instructions.hpp"
 #include "slipscale/solid/lanes.hpp"
 
 namespace slipscale {
 
-/// Sums over the owned nodes that the energy ledger needs when the bulk dissipates.
-struct BulkSums {
-  double increment_force = 0;    ///< Δuᵀ K Δu of the step just closed, J/m
-  double increment_inertia = 0;  ///< Δaᵀ M Δa of the step just closed, N²/kg/m
-  double damping_past = 0;       ///< damping force at t_n times u_n − u_{n−1}, J/m
-  double damping_next = 0;       ///< damping force at t_n times u_{n+1} − u_n, J/m
+/// What owned nodes have lost so far where the bulk dissipates, along x and y, J/m; null where the physics
+/// does not lose it. By node, so that no sum depends on the number of ranks.
+struct BulkLosses {
+  Vector2* damping = nullptr;  ///< to bulk damping; of the coming step already the part 1 − β2
+  Vector2* coming = nullptr;   ///< that part; kept by steps that keep the acceleration
+  Vector2* scheme = nullptr;   ///< to the time scheme, β2 > ½
+};
+
+/// How a step counts in them.
+struct LossWeights {
+  double past = 0;     ///< of the damping force's work along the step before, β2; 0 in the first step
+  double next = 0;     ///< of its work along the coming step, 1 − β2
+  double force = 0;    ///< of Δuᵀ K Δu of the step just closed, β2 − ½; 0 in the first step
+  double inertia = 0;  ///< of Δaᵀ M Δa of that step, −(β2 − ½) β2 Δt²/2, s²; 0 in the first step
 };
 
 /// What the free motion of a node needs; arrays by local node.
@@ -32,69 +41,38 @@ struct BulkPhysics {
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
+/// What moves the nodes over one step.
+struct FreeMotionState {
+  BulkArrays arrays;
+  StepCoefficients step;
+  Lanes gravity;
+  double lag;           ///< stiffness damping over the step
+  double mass_damping;  ///< 1/s
+  BulkLosses losses;
+  LossWeights weights;
+};
+
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
-/// velocity, displacement. Called for every run of owned nodes as soon as their internal force is complete.
-template <BulkPhysics physics>
+/// velocity, displacement; and the losses of the bulk. Called for every run of owned nodes as soon as their
+/// internal force is complete; several nodes are moved at a time, to the same bits.
 class FreeMotion {
  public:
-  FreeMotion(const BulkArrays& arrays, const StepCoefficients& step, const Damping& damping,
-             const Vector2& gravity, BulkSums& sums)
-      : arrays_(arrays),
-        step_(step),
-        gravity_(load(gravity)),
-        lag_(damping.stiffness / step.time_step),
-        mass_damping_(damping.mass),
-        sums_(sums) {}
+  FreeMotion(const BulkPhysics& physics, Instructions instructions, const BulkArrays& arrays,
+             const StepCoefficients& step, const Damping& damping, const Vector2& gravity,
+             const BulkLosses& losses, const LossWeights& weights)
+      : move_(moving(physics, instructions)), state_{arrays,        step,
+                                                     load(gravity), damping.stiffness / step.time_step,
+                                                     damping.mass,  losses,
+                                                     weights} {}
 
-  void operator()(int begin, int end) const {
-    // Local copies: the compiler cannot know that no store below changes the members.
-    const BulkArrays arrays = arrays_;
-    const StepCoefficients step = step_;
-    const Lanes gravity = gravity_;
-    const double lag = lag_, mass_damping = mass_damping_;
-    // u_n − u_{n−1} = Δt w_n + (β2 − ½) Δt² a_{n−1}
-    const double drift = step.displacement - step.time_step * step.time_step;
-    Lanes increment_force{}, increment_inertia{}, damping_past{}, damping_next{};
-    for (int i = begin; i < end; ++i) {
-      const Lanes w = load(arrays.predictor[i]), internal = load(arrays.force[i]);
-      const double inverse_mass = arrays.inverse_mass[i];
-      Lanes resistance = internal;
-      if constexpr (physics.stiffness_damping)
-        resistance += lag * (internal - load(arrays.previous_force[i]));
-      if constexpr (physics.mass_damping) resistance += mass_damping / inverse_mass * w;
-      const Lanes a = gravity - resistance * inverse_mass;
-      const Lanes increment = displacement_increment(step, w, a);
-      if constexpr (physics.keeps_force()) {
-        Lanes past = step.time_step * w;
-        if constexpr (physics.numerical_dissipation) {
-          const Lanes old_a = load(arrays.acceleration[i]), change = a - old_a;
-          past += drift * old_a;
-          increment_force += past * (internal - load(arrays.previous_force[i]));
-          increment_inertia += change * change / inverse_mass;
-        }
-        if constexpr (physics.stiffness_damping || physics.mass_damping) {
-          damping_past += (internal - resistance) * past;
-          damping_next += (internal - resistance) * increment;
-        }
-      }
-      store(arrays.displacement[i], load(arrays.displacement[i]) + increment);
-      store(arrays.predictor[i], next_predictor(step, w, a));
-      if constexpr (physics.keeps_acceleration) store(arrays.acceleration[i], a);
-    }
-    if constexpr (physics.keeps_force()) {
-      sums_.increment_force += increment_force[0] + increment_force[1];
-      sums_.increment_inertia += increment_inertia[0] + increment_inertia[1];
-      sums_.damping_past += damping_past[0] + damping_past[1];
-      sums_.damping_next += damping_next[0] + damping_next[1];
-    }
-  }
+  void operator()(int begin, int end) const { move_(state_, begin, end); }
 
  private:
-  const BulkArrays arrays_;
-  const StepCoefficients step_;
-  const Lanes gravity_;
-  const double lag_, mass_damping_;
-  BulkSums& sums_;
+  using Move = void (*)(const FreeMotionState&, int begin, int end);
+  static Move moving(const BulkPhysics& physics, Instructions instructions);
+
+  const Move move_;
+  const FreeMotionState state_;
 };
 
 }  // namespace slipscale

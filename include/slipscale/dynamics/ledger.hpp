@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/bulk.hpp"
@@ -57,18 +60,17 @@ inline constexpr std::array<EnergyTerm, 12> energy_terms{{
 }};
 static_assert(sizeof(Energy) == energy_terms.size() * sizeof(double), "every term has its line");
 
-/// Work Σ Δuᵀ[(1 − β2) f_n + β2 f_{n+1}] of one kind of force; the part that waits for f_{n+1} is kept apart.
-class Work {
- public:
-  /// With f_n at hand: `past` = f_n · (u_n − u_{n−1}), `next` = f_n · (u_{n+1} − u_n), J/m.
-  void add(double beta2, double past, double next) {
-    done_ += waiting_ + beta2 * past;
-    waiting_ = (1 - beta2) * next;
-  }
-  double done() const { return done_; }
+/// Work Σ Δuᵀ[(1 − β2) f_n + β2 f_{n+1}] of one kind of force at each of a number of nodes; the part that
+/// waits for f_{n+1} is kept apart.
+struct NodalWork {
+  std::vector<double> done, waiting;  ///< J/m
 
- private:
-  double done_ = 0, waiting_ = 0;
+  explicit NodalWork(int nodes = 0) : done(nodes, 0), waiting(nodes, 0) {}
+  /// With f_n at hand: `past` = f_n · (u_n − u_{n−1}), `next` = f_n · (u_{n+1} − u_n), J/m.
+  void add(int node, double beta2, double past, double next) {
+    done[node] += waiting[node] + beta2 * past;
+    waiting[node] = (1 - beta2) * next;
+  }
 };
 
 /// The exact discrete energy balance of the β2 scheme: with Δ = new − old and f all forces but −Ku,
@@ -78,34 +80,55 @@ class Work {
 /// holds for the friction of one step, τ_n (V Δt − Δu_x) ≥ 0, holds for the step after t_n, which is the one
 /// that the law sees; along the step before it the node may have moved the other way. The heat of a whole run
 /// is therefore positive, a single row may fall below the one before by the order of one step.
-/// Works are summed every step over this rank's boundary nodes; sums over ranks are taken when a row asks for
-/// them.
+/// Works are kept by node, so that none of their bits depends on the number of ranks; sums are taken when a
+/// row asks for them.
 class EnergyLedger {
  public:
+  /// Of a scene without boundary nodes and contact, until `start` tells what there is.
   EnergyLedger(double beta2, double time_step) : beta2_(beta2), time_step_(time_step) {}
+  void start(const BulkPhysics& physics, int owned_nodes, int boundary_nodes, int contact_nodes, int plates);
 
   /// Closes the step n−1 → n and opens n → n+1, when all forces at t_n and u_{n+1} are known.
   /// `surface_travel` is the surface's path over the coming step, m.
   void add(const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state,
            double surface_travel);
 
-  /// The same for the bulk terms; `sums` are those of free motion and are corrected here for what the
-  /// boundary forces changed. `first`: there is no step to close yet.
-  void add_bulk(BulkSums sums, const BulkPhysics& physics, const Damping& damping,
-                const StepCoefficients& step, const BoundaryNodes& nodes, const ContactNodes& contact,
-                const NodalState& state, const Vector2* force, bool first);
+  /// Where the free motion of the step keeps what the bulk loses, and how it counts. `first`: there is no
+  /// step to close yet.
+  BulkLosses bulk_losses();
+  LossWeights weights(bool first) const;
+  /// Corrects what free motion found for the forces at the boundary nodes.
+  void correct_bulk(const BulkPhysics& physics, const Damping& damping, const StepCoefficients& step,
+                    const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state,
+                    const Vector2* force, bool first);
 
   /// The same for the mass of the plates on straight sides, which are part of what moves: their pushes on the
   /// nodes are among the loads, and with their own inertia the loads become the forces on the plates.
   void add_plates(const StraightSides& sides);
 
-  /// This rank's works; kinetic, strain and body force are left to the caller.
-  Energy works() const;
+  /// What this rank adds to the works of an observed step: to an energy the sum of a list.
+  struct Term {
+    double Energy::*energy;
+    std::span<const double> list;
+  };
+  std::vector<Term> works() const;
+
+  /// Adds what later steps and rows need of the steps so far to the groups of those names, and a group for
+  /// each plate, on the rank that answers for it.
+  void add_state(StateGroup& nodes, StateGroup& boundary_nodes, StateGroup& contact_nodes);
+  std::vector<StateGroup> plates_state(const StraightSides& sides);
+  /// After the arrays were filled in. `surface_travel`: over the last step made, m.
+  void resume(double surface_travel) { past_travel_ = surface_travel; }
 
  private:
   double beta2_, time_step_;
-  Work loads_, plates_, supports_, drive_, heat_, impact_, damping_;
-  double scheme_ = 0;
+  BulkPhysics physics_;
+  NodalWork loads_, supports_;                      ///< by slot
+  NodalWork drive_, heat_, impact_;                 ///< by contact node
+  NodalWork plates_;                                ///< by side, on the rank that answers for it
+  std::vector<Vector2> damping_, coming_, scheme_;  ///< by owned node, see BulkLosses
+  mutable std::vector<double> bulk_done_;  ///< their sums by node; kept so that a row allocates little
+  std::vector<double> plates_scheme_;      ///< by side
   double past_travel_ = 0;
   std::vector<Vector2> scratch_;  ///< all boundary forces by slot; kept so that a step allocates nothing
 };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slipscale/mesh/mesh.hpp"
+#include "slipscale/solid/eigenvalue_bound.hpp"
 #include "slipscale/solid/material.hpp"
 #include "slipscale/solid/pair_stiffness.hpp"
 
@@ -13,16 +14,20 @@ namespace slipscale {
 class Model {
  public:
   enum class Storage { full, single };
-  Model(const Mesh& mesh, std::vector<Material> materials, Storage storage);
+  Model(const Mesh& mesh, std::vector<Material> materials, Storage storage,
+        const StiffnessKernel& kernel = {});
 
   const Mesh& mesh;
+  const StiffnessKernel kernel;
   const std::vector<Material> materials;  ///< [regions]
   const std::vector<double> mass;         ///< [owned nodes], kg/m
   const std::variant<PairStiffness<double>, PairStiffness<float>> stiffness;
 
   void multiply(Vector2* displacement, Vector2* force) const {
-    std::visit([&](const auto& pairs) { pairs.multiply(displacement, force); }, stiffness);
+    std::visit([&](const auto& each) { each.multiply(displacement, force); }, stiffness);
   }
+  /// Part of the whole mesh's nodes whose rows of the stiffness repeat from node to node. Collective.
+  double repeating(MPI_Comm comm) const;
 };
 
 /// A Vec of blocks of two, one a node: the owned nodes, and behind them in the same array the ghosts if it
@@ -51,6 +56,7 @@ class NodalVector {
 struct FrequencyBounds {
   double sharp = 0;  ///< 1/s, by Lanczos on M⁻¹K, with the residual as margin, rounded up to 4 digits
   double safe = 0;   ///< 1/s, from the largest element eigenvalue
+  CriticalCell critical = {};
 };
 
 /// The largest frequency of the undamped free body, two ways. Does not depend on the number of ranks.

@@ -35,6 +35,8 @@ Schema scene_schema();
 Scene read_scene(const Options& options, const Mesh& mesh);
 TimeChoice read_time(const Options& options);
 Model::Storage read_storage(const Options& options);
+/// Throws UserError for instructions that this processor lacks.
+StiffnessKernel read_kernel(const Options& options);
 
 struct TimeStep {
   double step = 0;        ///< s
@@ -49,5 +51,8 @@ struct TimeStep {
 TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time);
 
 std::string describe(const TimeStep& step, const Model& model);
+
+/// How the stiffness is worked with, and what part of the nodes it serves many at a time. Collective.
+std::string describe_kernel(MPI_Comm comm, const Model& model);
 
 }  // namespace slipscale

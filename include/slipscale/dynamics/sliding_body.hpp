@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/ledger.hpp"
@@ -65,25 +68,33 @@ class SlidingBody {
 
   const StraightSides& straight_sides() const { return *straight_; }  ///< at t_n
 
-  /// The energy balance at t_n of an observed step, summed over the ranks. Collective.
+  /// The energy balance at t_n of an observed step, the same bits on any number of ranks. Collective.
   Energy energy() const;
-  /// Mass and momenta at t_n of an observed step, without plates, summed over the ranks. Collective.
+  /// Mass and momenta at t_n of an observed step, without plates; the same bits on any number of ranks.
+  /// Collective.
   Momentum momentum() const;
+  /// Everything that the steps so far left behind, for a checkpoint to keep: the arrays are the body's own.
+  /// When those of a body made anew are filled in and `resume` is called, it goes on with the same bits.
+  /// Collective.
+  std::vector<StateGroup> state();
+  void resume();
+
   /// Whether any contact node was closed at any step so far. Collective.
   bool has_touched() const;
 
  private:
-  template <BulkPhysics physics>
-  void free_motion(const StepCoefficients& step);
-  using FreeMotionStep = void (SlidingBody::*)(const StepCoefficients&);
-  static FreeMotionStep free_motion_for(const BulkPhysics& physics);
-  template <std::size_t... Index>
-  static auto free_motion_table(std::index_sequence<Index...>);
+  void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
+  void remember(bool observed, const NodalState& moving);
+  void touch_surface(bool first, const StepCoefficients& step, const NodalState& moving);
+  void add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving);
   void find_velocity(const StepCoefficients& step);
 
   void start_force();
   void set_contact_nodes();
-  Energy local_energy() const;  ///< this rank's terms; no residual, flowed kinetic only
+  double gravity_work(int node, const Vector2& displacement) const;
+  using BulkTerms = std::array<std::span<const double>, 4>;
+  BulkTerms bulk_terms() const;
+  std::int64_t largest_count() const;
   NodalState state(bool with_acceleration) const;
 
   MPI_Comm comm_;
@@ -102,13 +113,16 @@ class SlidingBody {
   FrictionLaw law_;
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
-  FreeMotionStep free_motion_, observed_free_motion_;
-  BulkSums bulk_;
   EnergyLedger ledger_;
-  double start_gravity_ = 0;  ///< Σ m g·u_0 of this rank, J/m
-  double start_energy_ = 0;   ///< Ê at t = 0 of this rank, J/m
+  double start_gravity_ = 0;           ///< Σ m g·u_0 of all ranks, J/m
+  double start_energy_ = 0;            ///< Ê at t = 0 of all ranks, J/m
+  mutable std::vector<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
   long step_ = 0;
+  /// The run as a whole, for a checkpoint.
+  struct Carried {
+    double steps, surface_travel, start_gravity, start_energy, touched;
+  } carried_{};
 };
 
 }  // namespace slipscale

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "slipscale/base/state_group.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/conditions.hpp"
 #include "slipscale/dynamics/scheme.hpp"
@@ -46,9 +47,17 @@ class StraightSide {
   /// ½ V·MV and ½ A·MA at t_n of the plate alone; on one rank. J/m, and N²/kg/m
   std::array<double, 2> energies() const;
 
+  /// For a checkpoint: the motion, the same on all ranks that hold nodes of the side.
+  StateGroup state();
+  /// Mass and moment of inertia of the plate alone, kg/m and kg m; on one rank, zero on the others.
+  PlateMotion plate_mass() const { return counts_ ? own_ : PlateMotion{}; }
+  bool answers_for_plate() const { return counts_; }  ///< true on one rank
+
   const std::string& boundary() const { return boundary_; }
-  const PlateMotion& displacement() const { return before_; }  ///< at t_n since the start; on ranks that hold
-  const PlateMotion& velocity() const { return velocity_; }    ///< nodes of the side
+  const PlateMotion& displacement() const {
+    return motion_.before;
+  }  ///< at t_n since the start; on ranks that hold
+  const PlateMotion& velocity() const { return motion_.velocity; }  ///< nodes of the side
 
  private:
   struct Member {
@@ -64,11 +73,16 @@ class StraightSide {
   std::vector<Member> members_;
   PlateMotion own_{};                ///< mass and moment of inertia of the plate, kg/m and kg m
   std::array<double, 3> inverse_{};  ///< of the mass matrix: 11, 12, 22
-  PlateMotion place_{}, before_{}, moves_{}, velocity_{},
-      acceleration_{};       ///< U_{n+1}, U_n, W_{n+1}, V_n, A_n
-  PlateMotion increment_{};  ///< U_{n+1} − U_n
+  /// What one step leaves to the next.
+  struct Motion {
+    PlateMotion place{}, before{};           ///< U_{n+1}, U_n
+    PlateMotion increment{};                 ///< U_{n+1} − U_n
+    PlateMotion moves{};                     ///< W_{n+1}
+    PlateMotion velocity{}, acceleration{};  ///< V_n, A_n
+    double started = 0;                      ///< 1 when a step was made
+  };
+  Motion motion_;
   Inertia inertia_;
-  bool started_ = false;
 
   MPI_Comm comm_ = MPI_COMM_NULL;  ///< of the ranks that hold nodes of the side
   bool counts_ = false;            ///< this rank answers for the plate
@@ -86,6 +100,7 @@ class StraightSides {
                 const BoundaryNodes& nodes, const Supports& supports, const Vector2* displacement,
                 Vector2* predictor);
   bool empty() const { return sides_.empty(); }
+  std::size_t size() const { return sides_.size(); }
   bool holds(int slot) const;  ///< whether a node belongs to one of them
 
   std::vector<std::unique_ptr<StraightSide>>::const_iterator begin() const { return sides_.begin(); }

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "slipscale/base/state_group.hpp"
 
 namespace slipscale {
 
@@ -27,6 +30,9 @@ class LargestValues {
   /// The largest of the `taken` offered, at most `keep`, in descending order.
   std::vector<double> descending(std::size_t column, std::size_t taken) const;
 
+  double* values() { return values_.data(); }  ///< [count, keep]
+  std::size_t keep() const { return keep_; }
+
  private:
   std::size_t keep_;
   std::vector<double> values_;  ///< [count, keep]
@@ -47,6 +53,10 @@ class RunningStatistics {
 
   std::size_t samples() const { return taken_; }  ///< so far
   FieldStatistics result() const;                 ///< over the samples so far, at least one
+
+  /// For a checkpoint: the arrays by place, names beginning with `name`; and how many samples they are of.
+  std::vector<StateArray> state(const std::string& name, const std::string& units);
+  void resume(std::size_t samples) { taken_ = samples; }
 
   /// Memory for one place.
   static double bytes(std::size_t samples, double quantile);

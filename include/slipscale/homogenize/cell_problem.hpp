@@ -49,8 +49,8 @@ struct CellSolution {
   Eigen::Matrix3d mean_localisation = Eigen::Matrix3d::Zero();  ///< ⟨A⟩, holes included: I
   double area = 0;                                              ///< of the cell, holes included, m²
   CellHoles holes;
-  std::vector<std::string> locking;       ///< regions that are nearly incompressible and have triangles
-  std::vector<std::string> idle_options;  ///< of PETSc's that were given and that this solver does not read
+  std::vector<std::string> locking;  ///< regions that are nearly incompressible and have triangles
+  std::vector<std::string> notes;    ///< on options of PETSc's that this solver does not read
   std::array<CaseCost, load_cases> cost;
   double set_up_seconds = 0;  ///< matrix and preconditioner
   std::string solver;         ///< "cg + gamg", say

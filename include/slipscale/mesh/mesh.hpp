@@ -70,6 +70,17 @@ struct Cells {
   }
 };
 
+/// Edges of a grid that were meant to be equal differ by the rounding of the coordinates, which depends on
+/// where they lie. Rounded to multiples of `quantum`, off by `phase`, a few of the last digits that
+/// coordinates of this size have, they are equal to the last bit; the phase keeps the mesh's edges off the
+/// limits between two multiples.
+struct EdgeRounding {
+  double quantum = 0;  ///< m, a power of two; 0 leaves edges as they are
+  double phase = 0;    ///< m
+
+  double operator()(double component) const;  ///< of an edge, m
+};
+
 /// What the partition costs; one entry a rank.
 struct PartitionReport {
   std::vector<PetscInt> owned_cells, overlap_cells, owned_nodes, ghost_nodes;
@@ -90,6 +101,7 @@ struct Mesh {
   std::array<bool, 2> periodic{};  ///< along x, along y
   Vector2 lower{}, upper{};        ///< bounding box of the cells, m
   double shortest_edge = 0;        ///< m
+  EdgeRounding edge_rounding;
   std::string file;
   std::uint64_t checksum = 0;      ///< FNV-1a of the file's bytes
   std::vector<std::string> notes;  ///< what was made of the file, one sentence each, for the user to see
@@ -99,6 +111,10 @@ struct Mesh {
   std::vector<std::string> region_names() const;
   std::vector<std::string> boundary_names() const;
   double area() const;  ///< m²
+
+  /// The corners of a cell as seen from its first, m, rounded so that cells that were meant to be alike are,
+  /// to the last bit. Unused entries are zero.
+  std::array<Vector2, 4> shape_of(int cell) const;
 };
 
 }  // namespace slipscale

@@ -35,7 +35,7 @@ MeshSource periodic_mesh_source(const Options& options);
 /// another or are paired in part, or fewer than three cells across a period. Collective.
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source);
 
-/// The table printed at start: names, tags, sizes, and what each rank holds, below the mesh's notes.
+/// The table printed at start: names, tags, sizes, and what each rank holds.
 std::string describe(const Mesh& mesh, const std::vector<std::string>& region_materials);
 
 }  // namespace slipscale

@@ -18,9 +18,9 @@ struct Placement {
 };
 
 /// Random sequential placement, the largest family first; where it jams, inclusions are put in and the
-/// overlaps relaxed (Jodrey and Tory 1985). The fraction of each family is reached to within one of its
-/// inclusions. Same seed, same composite. Throws UserError when the fraction cannot be reached, with the
-/// value that can.
+/// overlaps relaxed (Jodrey, Tory, Phys. Rev. A 32 (1985) 2347). The fraction of each family is reached to
+/// within one of its inclusions. Same seed, same composite. Throws UserError when the fraction cannot be
+/// reached, with the value that can.
 Placement place_at_random(const std::vector<Family>& families, const Room& room, std::uint64_t seed);
 
 /// A square or hexagonal array of one family (same size, same angle) of the given diameter, or, when that is

@@ -20,6 +20,11 @@ class ForceRecord {
     if (n >= first_) record(n);
   }
 
+  /// For a checkpoint after step n: the sums so far of all ranks, on rank 0; `resume` after they were filled
+  /// in. Collective.
+  StateGroup state(long n);
+  void resume();
+
   /// On rank 0 the force of the body along the boundary, N/m, one a step; empty elsewhere. Collective.
   std::vector<double> gather() const;
 
@@ -30,7 +35,7 @@ class ForceRecord {
   std::vector<int> slots_;
   Vector2 tangent_{};
   long first_;
-  std::vector<double> sums_;
+  std::vector<double> sums_, carried_;
 };
 
 }  // namespace slipscale

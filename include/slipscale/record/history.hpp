@@ -15,9 +15,10 @@ namespace slipscale {
 /// those of `Energy` (ledger.hpp). Lives on rank 0.
 class HistoryFile {
  public:
-  /// `rows` that are expected; `continued`: of a file that another process began.
+  /// `rows` that are expected; `momentum`: whether the observations bring those of body and plates;
+  /// `continued`: of a file that another process began.
   HistoryFile(const std::string& path, const SlidingBody& body, const std::vector<Vector2>& points,
-              double rows, std::optional<SeriesFile::Continue> continued = {});
+              bool momentum, double rows, std::optional<SeriesFile::Continue> continued = {});
   void write(const Observation& seen, const std::vector<ProbeReading>& probes);
   /// What was seen in the rows so far, contact nodes left out; nothing, and a fault or a refusal of the
   /// series, when they cannot be read.
@@ -28,10 +29,12 @@ class HistoryFile {
   void add_energy();
   template <class Seen, class Visit>
   void visit_numbers(Seen& seen, Visit visit) const;
+  void add_momentum(const SlidingBody& body);
+  void write_momentum(const Observation& seen);
 
   SeriesFile file_;
   int time_, step_, friction_ = -1;
-  std::vector<int> boundary_, surface_, energy_, fractions_, points_;
+  std::vector<int> boundary_, surface_, energy_, momentum_, plates_, fractions_, points_;
 };
 
 /// contact.h5: every contact node, along x, at the saved times, as an `Observer` sees it. Lives on rank 0.

@@ -33,6 +33,13 @@ struct ContactReading {
   ContactStatus status = ContactStatus::open;
 };
 
+/// The plate that keeps a side straight, at t_n: along y, and about its middle, counter-clockwise.
+struct PlateReading {
+  PlateMotion moved{};     ///< since the start, m and rad
+  PlateMotion velocity{};  ///< m/s and rad/s
+  PlateMotion momentum{};  ///< of the plate alone, kg/s and kg m/s
+};
+
 /// What is measured at t_n; on rank 0, the same bits on any number of ranks but for the energies, which are
 /// sums over the bulk and are known on every rank.
 struct Observation {
@@ -46,13 +53,16 @@ struct Observation {
   double friction_heat = 0;              ///< Σ τA (V − v_x), W/m
   double stick = 0, slip = 0, open = 0;  ///< fractions of the contact boundary's length
   double friction = 0;  ///< tangential over normal load at the measured boundary; NaN without load
+  Momentum momentum;    ///< where it is asked for; summed as the energies are
+  std::vector<PlateReading> plates;  ///< likewise, in the order of SlidingBody::straight_sides
   Energy energy;
 };
 
 /// Gathers what an observation needs. Collective.
 class Observer {
  public:
-  explicit Observer(const SlidingBody& body);
+  /// `momentum`: of body and plates, at the cost of a sum over the nodes and the ranks for each observation.
+  Observer(const SlidingBody& body, bool momentum);
 
   /// State at t_n of an observed step. Collective.
   Observation observe() const;
@@ -65,8 +75,10 @@ class Observer {
  private:
   void observe_boundaries(Observation& seen) const;
   void observe_contact(Observation& seen) const;
+  void observe_plates(Observation& seen) const;
 
   const SlidingBody& body_;
+  const bool momentum_;
   OrderedGather boundary_gather_, contact_gather_;
   std::vector<std::vector<int>> members_;  ///< rank 0, by boundary: rows of the gathered boundary nodes
   std::vector<int> along_x_;               ///< rank 0: gathered contact rows in the order of x

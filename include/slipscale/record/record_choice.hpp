@@ -31,17 +31,30 @@ struct Cadence {
   long steps(double step, long otherwise) const;
 };
 
+/// When a run leaves a checkpoint, and when it must end.
+struct CheckpointChoice {
+  double minutes = 0;          ///< of wall time between two of them; 0: none for the time's sake
+  std::optional<long> every;   ///< steps
+  std::optional<double> wall;  ///< minutes that the program may take in all
+
+  /// A run that wants none may still leave one when it is told to stop.
+  bool wanted() const { return minutes > 0 || every; }
+};
+
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
   Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
   std::vector<Vector2> points;  ///< m
+  bool momentum = false;        ///< whether history.h5 has those of body and plates
   Cadence fields;
   std::vector<double> fields_times;  ///< s
   FieldQuantities quantities;
   std::optional<Box> fields_box;
   std::optional<StatisticsChoice> statistics;
   std::string progress;
+  CheckpointChoice checkpoint;
+  std::optional<std::string> restart;  ///< folder of the run to go on with
 };
 
 Schema record_schema();

@@ -8,6 +8,7 @@
 
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/files/progress.hpp"
+#include "slipscale/record/checkpoint.hpp"
 #include "slipscale/record/fields_file.hpp"
 #include "slipscale/record/force_record.hpp"
 #include "slipscale/record/history.hpp"
@@ -20,10 +21,11 @@ namespace slipscale {
 /// Keeps what the user asked for: it says which steps are to be observed, and writes them.
 class Recorder {
  public:
-  /// Creates the folder's files. Throws UserError for a point outside the body, for a time outside the run
-  /// and a box without cells, all before the folder is touched, and for a folder that cannot be written to.
-  /// Collective.
-  Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time);
+  /// Creates the folder's files, or goes on with those of the run that `restart` is of. Throws UserError for
+  /// a point outside the body, for a time outside the run and a box without cells, all before the folder is
+  /// touched, and for a folder that cannot be written to. Collective.
+  Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time,
+           const Restart* restart = nullptr);
 
   /// Whether step n is to be observed.
   bool due(long n) const {
@@ -41,12 +43,27 @@ class Recorder {
   void write_run(const Options& options) const;
   /// Closes the files, writes summary.yaml and returns its text. Collective.
   std::string finish();
+  /// The same for a run that ends before its time; `why` and how to go on stand in the summary. Collective.
+  std::string interrupt(const std::string& why, const std::string& command);
+
+  /// For a checkpoint after step n: where the run stands, and what statistics and averages have gathered.
+  /// Collective.
+  std::vector<StateGroup> state(long n);
+  /// Before it is written: all rows and frames so far are on the disk. Collective.
+  void sync();
+  const std::string& folder() const { return folder_.path(); }
+  const TimeStep& time() const { return time_; }
 
  private:
   bool contact_due(long n) const { return has_contact_ && (n % contact_every_ == 0 || n == last_); }
   bool fields_due(long n) const;
   bool statistics_due(long n) const { return window_ && window_->due(n); }
   double rows(long every) const { return static_cast<double>((last_ + every - 1) / every + 1); }
+  void open_files(const Restart* restart);
+  void go_on(const Restart& restart);
+  void close_files();
+  std::string summary(long steps, const std::string& why, const std::string& command);
+  double seconds() const;  ///< of the steps and their output so far
   void observe(long n);
   void record_cells(long n);
   std::string cadences() const;  ///< for the forecast
@@ -56,6 +73,8 @@ class Recorder {
 
   const SlidingBody& body_;
   const RecordChoice choice_;
+  RunPosition position_;  ///< at the restart; of a new run all zero
+  RunPosition written_;   ///< as the last checkpoint has it
   const TimeStep time_;
   const long last_, history_every_;
   const bool has_contact_;

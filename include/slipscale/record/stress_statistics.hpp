@@ -32,6 +32,10 @@ class StressStatistics {
            const std::vector<std::array<double, 3>>& strain);
   std::size_t samples() const { return stress_.samples(); }
 
+  /// For a checkpoint: what the samples so far left; `resume` after the arrays were filled in.
+  std::vector<StateGroup> state();
+  void resume();
+
   /// Writes statistics.h5 and statistics.xdmf over the samples so far, if there are any. Throws UserError on
   /// all ranks when it cannot. Collective.
   void write(const std::string& folder) const;
@@ -48,6 +52,7 @@ class StressStatistics {
   std::vector<int> owned_;  ///< local cells
   RunningStatistics stress_, strain_;
   double from_ = 0, to_ = 0;
+  std::array<double, 3> carried_{};  ///< samples, from and to, for a checkpoint
   std::vector<double> rows_;
 };
 

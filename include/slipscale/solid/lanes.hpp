@@ -18,4 +18,6 @@ inline Lanes load(const Vector2& x) {
 
 inline void store(Vector2& x, Lanes lanes) { std::memcpy(x.data(), &lanes, sizeof lanes); }
 
+inline void add(Vector2& x, Lanes lanes) { store(x, load(x) + lanes); }
+
 }  // namespace slipscale

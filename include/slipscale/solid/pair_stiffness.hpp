@@ -1,15 +1,26 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <array>
-#include <span>
 #include <vector>
 
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/solid/lanes.hpp"
 #include "slipscale/solid/material.hpp"
+#include "slipscale/solid/repeated_rows.hpp"
 
 namespace slipscale {
+
+/// How the stiffness is worked with; the bits are the same.
+struct StiffnessKernel {
+  bool runs = true;  ///< successive nodes with equal rows are summed together; else every pair is visited
+  Instructions instructions = widest_instructions();
+};
+
+template <class Scalar>
+struct AssembledPairs;
+template <class Scalar>
+class RowTerms;
+class TermLists;
+class Quartets;
 
 /// The stiffness of a body as a graph of node pairs.
 ///
@@ -20,12 +31,17 @@ namespace slipscale {
 /// interfaces. Pairs are visited in the order of their whole-mesh numbers (low, high), so the sum at a node
 /// has the same bits on any number of ranks.
 ///
+/// Where a mesh is a grid, successive nodes have their neighbours at the same distances in the arrays, with
+/// the same blocks to the last bit. The forces on such a run of nodes are gathered, many nodes at once, with
+/// the blocks in registers, each node's parts in the order in which the visit of the pairs would add them: to
+/// the same bits. Whether a chunk of rows is gathered or visited depends on what repeats in it.
+///
 /// `Scalar` is what the blocks are stored in; all arithmetic is in double precision.
 template <class Scalar>
 class PairStiffness {
  public:
   /// Assembles Σ_cells ∫ Bᵀ C B in the order of cell numbers. `materials` [regions].
-  PairStiffness(const Mesh& mesh, const std::vector<Material>& materials);
+  PairStiffness(const Mesh& mesh, const std::vector<Material>& materials, const StiffnessKernel& kernel = {});
 
   /// force = K displacement, N/m, at the owned nodes; what it leaves at ghosts is meaningless. Both arrays
   /// hold all local nodes. `complete(begin, end)` is called for runs of owned nodes, in ascending order and
@@ -38,10 +54,13 @@ class PairStiffness {
     multiply(displacement, force, [](int, int) {});
   }
 
-  std::size_t pairs() const { return high_.size(); }
+  int gathered() const { return gathered_; }    ///< owned nodes whose force is gathered
+  int repeating() const { return repeating_; }  ///< of these, the ones in runs
   std::size_t bytes() const {
-    return pairs() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) +
-           skews_.size() * sizeof(Skew) + chunks_.size() * sizeof(Chunk);
+    return high_.size() * (sizeof(Block) + sizeof(int)) + rows_.size() * sizeof(Row) +
+           skews_.size() * sizeof(Skew) + chunks_.size() * sizeof(Chunk) + runs_.size() * sizeof(Run) +
+           terms_.size() * sizeof(Term) + quartets_.size() * sizeof(Quartet) + links_.size() * sizeof(Link) +
+           values_.size() * sizeof(double);
   }
 
  private:
@@ -58,21 +77,37 @@ class PairStiffness {
     int node;   ///< local node, the lower of its pairs
     int first;  ///< where its pairs start
   };
-  /// Some successive rows: few enough for the first-level cache.
+  /// Some successive rows: few enough for the first-level cache. Its pairs are visited first, then its runs
+  /// are gathered; what a visit adds to the force on a gathered node is lost.
   struct Chunk {
-    int begin, end;  ///< rows
-    int touched;     ///< owned nodes below this one are touched by this chunk or an earlier one
-    int complete_begin, complete_end;  ///< owned nodes whose force is complete after it
+    int rows_begin = 0, rows_end = 0, skews_begin = 0, runs_begin = 0, runs_end = 0;
+    int quartets_begin = 0, quartets_end = 0;
+    int zero_begin = 0, zero_end = 0;          ///< owned nodes that its visits are the first to add to
+    int complete_begin = 0, complete_end = 0;  ///< owned nodes whose force is complete after it
   };
 
-  template <class Sums>
-  void store_blocks(const Sums& sums);
+  void lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
+               const std::vector<char>& gathered);
+  void add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists, Quartets& quartets);
+  void add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end, TermLists& lists,
+                    Quartets& quartets);
+  void add_row(const AssembledPairs<Scalar>& pairs, int row, const std::vector<char>& gathered);
+  void complete_in_order(const AssembledPairs<Scalar>& pairs, const std::vector<char>& gathered);
+  void visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
 
   int owned_ = 0, count_ = 0;
+  int repeating_ = 0, gathered_ = 0;
+  GatherRuns gather_runs_;
+  GatherQuartets gather_quartets_;
   std::vector<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
   std::vector<int> high_;
   std::vector<Block> blocks_;
   std::vector<Skew> skews_;  ///< in the order of the pairs; a last one of no row closes the list
+  std::vector<Run> runs_;    ///< ascending, none across two chunks
+  std::vector<Term> terms_;
+  std::vector<Quartet> quartets_;  ///< likewise
+  std::vector<Link> links_;
+  std::vector<double> values_;
   std::vector<Chunk> chunks_;
 };
 
@@ -80,37 +115,45 @@ template <class Scalar>
 template <class Complete>
 void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Complete&& complete) const {
   for (int ghost = owned_; ghost < count_; ++ghost) force[ghost] = {0, 0};
-  const Row* const rows = rows_.data();
-  const Block* block = blocks_.data();
-  const int* const highs = high_.data();
-  const int* high = highs;
-  const Skew* skew = skews_.data();
-  int touched = 0;
   for (const Chunk& chunk : chunks_) {
-    for (; touched < chunk.touched; ++touched) force[touched] = {0, 0};
-    for (int r = chunk.begin; r < chunk.end; ++r) {
-      const int i = rows[r].node;
-      const Lanes u = load(displacement[i]);
-      Lanes f = load(force[i]);
-      for (const int* const end = highs + rows[r + 1].first; high != end; ++high, ++block) {
-        __builtin_prefetch(block + 32);  // the processor's own prefetch does not keep up with this stream
-        const int j = *high;
-        const Lanes d = load(displacement[j]) - u;
-        const Lanes pull =
-            Lanes{block->xx, block->xy} * Lanes{d[0], d[0]} + Lanes{block->xy, block->yy} * Lanes{d[1], d[1]};
-        f += pull;
-        store(force[j], load(force[j]) - pull);
-      }
-      for (; skew->row == r; ++skew) {
-        const int j = skew->high;
-        const Lanes d = load(displacement[j]) - u;
-        const Lanes turn = Lanes{skew->value, -skew->value} * Lanes{d[1], d[0]};
-        f += turn;
-        store(force[j], load(force[j]) + turn);
-      }
-      store(force[i], f);
+    if (chunk.rows_begin < chunk.rows_end) visit(chunk, displacement, force);
+    gather_runs_(runs_.data() + chunk.runs_begin, runs_.data() + chunk.runs_end, terms_.data(), displacement,
+                 force);
+    gather_quartets_(quartets_.data() + chunk.quartets_begin, quartets_.data() + chunk.quartets_end,
+                     links_.data(), values_.data(), displacement, force);
+    if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end);
+  }
+}
+
+template <class Scalar>
+void PairStiffness<Scalar>::visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const {
+  for (int node = chunk.zero_begin; node < chunk.zero_end; ++node) force[node] = {0, 0};
+  const Row* const rows = rows_.data();
+  const int* const highs = high_.data();
+  const int* high = highs + rows[chunk.rows_begin].first;
+  const Block* block = blocks_.data() + rows[chunk.rows_begin].first;
+  const Skew* skew = skews_.data() + chunk.skews_begin;
+  for (int r = chunk.rows_begin; r < chunk.rows_end; ++r) {
+    const int i = rows[r].node;
+    const Lanes u = load(displacement[i]);
+    Lanes f = load(force[i]);
+    for (const int* const end = highs + rows[r + 1].first; high != end; ++high, ++block) {
+      __builtin_prefetch(block + 32);  // the processor's own prefetch does not keep up with this stream
+      const int j = *high;
+      const Lanes d = load(displacement[j]) - u;
+      const Lanes pull =
+          Lanes{block->xx, block->xy} * Lanes{d[0], d[0]} + Lanes{block->xy, block->yy} * Lanes{d[1], d[1]};
+      f += pull;
+      store(force[j], load(force[j]) - pull);
     }
-    complete(chunk.complete_begin, chunk.complete_end);
+    for (; skew->row == r; ++skew) {
+      const int j = skew->high;
+      const Lanes d = load(displacement[j]) - u;
+      const Lanes turn = Lanes{skew->value, -skew->value} * Lanes{d[1], d[0]};
+      f += turn;
+      store(force[j], load(force[j]) + turn);
+    }
+    store(force[i], f);
   }
 }
 

@@ -18,6 +18,10 @@ if [ $# -lt 2 ]; then
   sed -n '2,5s/^# //p' "$0" >&2
   exit 2
 fi
+if ! [ -f "$2" ]; then
+  echo "array.sh: there is no $2" >&2
+  exit 2
+fi
 tasks=$1 snakefile=$(realpath "$2")
 study=$(basename "$(dirname "$snakefile")")
 shift 2

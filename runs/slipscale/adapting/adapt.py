@@ -7,8 +7,8 @@ Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. 
 
     scaling    T such that ωT is that of the heterogeneous run, ω the dominant frequency of friction
     frequency  T such that at the frequency through which most passes, the homogeneous surface moving and being
-               pressed as it does, the power of the heterogeneous run passes (slipscale.adapting.relaxation); takes contact.h5
-               of both runs
+               pressed as it does, the power of the heterogeneous run passes (slipscale.adapting.relaxation); takes
+               contact.h5 of both runs
     search     T at which the power into the body is that of the heterogeneous run: a scan, then false position.
                Where power is flat or not monotone over the scan, or never equal, mean friction is matched in its
                place, else the frequency; --match asks for one of them, whatever the scan looks like
@@ -66,8 +66,8 @@ class Adaptation:
         self.options = changed(spelled_out(options) if of_material else options, asked.set)
         self.start = asked.start or value_of(self.options, asked.parameter)
         if not self.start > 0:
-            raise UnreadableRun(f"{asked.parameter} is {self.start:g} in the homogeneous run, and a search needs a value "
-                                "above zero: give --start.")
+            raise UnreadableRun(f"{asked.parameter} is {self.start:g} in the homogeneous run, and a search needs a "
+                                "value above zero: give --start.")
         self.same = self.options == options and self.start == value_of(options, asked.parameter)
         self.trials = Trials(asked.program, self.options, Path(asked.output) / "trials", self.window, spectrum)
 
@@ -134,7 +134,8 @@ class Adaptation:
                               0.5 * TOLERANCE, self.asked.most)
         reached = self.trial(value)[quantity]
         if abs(reached - target) > TOLERANCE * abs(target):
-            raise Failure(f"{match} jumps: it is {ends[0]:.4g} at {bracket[0]:.4g} and {ends[1]:.4g} at {bracket[1]:.4g}, "
+            raise Failure(f"{match} jumps: it is {ends[0]:.4g} at {bracket[0]:.4g} and {ends[1]:.4g} at "
+                          f"{bracket[1]:.4g}, "
                           f"and came no nearer to {target:.4g} than {reached:.4g}, at {value:.4g}", {"match": match})
         return {"value": value, "match": match, "matched": reached, "crossings": len(scan.brackets)}
 
@@ -180,8 +181,8 @@ def not_adapted(before, after, value):
     if after >= before:
         return f"the spectrum is not nearer: {before:.3g} before, {after:.3g} with {value:.4g}"
     if after >= AT_REST:
-        return (f"the spectrum is nearer, {before:.3g} before and {after:.3g} with {value:.4g}, but no nearer than that "
-                "of a block at rest, 1")
+        return (f"the spectrum is nearer, {before:.3g} before and {after:.3g} with {value:.4g}, but no nearer than "
+                "that of a block at rest, 1")
     return None
 
 
@@ -192,7 +193,8 @@ def adapted_before(folder):
     if not file.is_file():
         return folder
     found = load(file, written=True)
-    ends = [level["after"] for level in found["levels"].values() if "after" in level] or [found["nearest"] or found["before"]]
+    ends = [level["after"] for level in found["levels"].values() if "after" in level]
+    ends = ends or [found["nearest"] or found["before"]]
     return min(ends, key=lambda end: end["spectrum_distance"])["folder"]
 
 
@@ -217,8 +219,8 @@ def parsed(arguments):
     parser.add_argument("--output", required=True, help="folder of adapt.yaml and the trials")
     parser.add_argument("--level", dest="levels", nargs="+", choices=LEVELS, help="default: all; of another parameter "
                         "than friction_time only search")
-    parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside this "
-                        "command)")
+    parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside "
+                                          "this command)")
     parser.add_argument("--match", choices=tuple(MATCHES))
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="s; default: the second half")
     parser.add_argument("--parameter", default="friction_time", help="option of slide that is adapted")

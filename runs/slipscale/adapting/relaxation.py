@@ -41,3 +41,7 @@ def most_power_of_one_frequency(strength, phase):
     lag = np.linspace(0, np.pi / 2, 2001)
     power = strength * np.cos(lag) * np.cos(lag + phase)
     return float(power.max()), float(power.min())
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.adapting.relaxation is a library, no command: slipscale -h lists the commands.")

@@ -69,3 +69,7 @@ def refine(evaluate, target, bracket, ends, tolerance, most):
             above *= 0.5 if last < 0 else 1
             last = -1
     return float(best[1])
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.adapting.search is a library, no command: slipscale -h lists the commands.")

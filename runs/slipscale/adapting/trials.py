@@ -25,7 +25,8 @@ def options_of(folder):
     """The options of a run that make it the same again, as a dict. Raises UnreadableRun."""
     options = Summary(folder).options
     if "mesh_file" not in options:
-        raise UnreadableRun(f"{Path(folder) / 'run.yaml'} does not say which mesh was run: is this a folder of `slide`?")
+        raise UnreadableRun(f"{Path(folder) / 'run.yaml'} does not say which mesh was run: is this a folder of "
+                            "`slide`?")
     kept = {name: value for name, value in options.items() if not name.startswith(LEFT_OUT)}
     return {name: found_file(value, folder) if name.endswith("_file") else value for name, value in kept.items()}
 
@@ -36,8 +37,8 @@ def found_file(path, folder):
     places = [Path(path), *(parent / path for parent in Path(folder).resolve().parents)]
     if found := next((place for place in places if place.is_file()), None):
         return str(found.resolve())
-    raise UnreadableRun(f"{Path(folder) / 'run.yaml'} names {path}, which is neither here nor in a folder above the run: "
-                        "start from where the run was started, or put it back.")
+    raise UnreadableRun(f"{Path(folder) / 'run.yaml'} names {path}, which is neither here nor in a folder above the "
+                        "run: start from where the run was started, or put it back.")
 
 
 def changed(options, changes):
@@ -57,18 +58,20 @@ def spelled_out(options):
 
 
 def value_of(options, parameter):
-    """A number among the options; the relaxation time may stand there as the length L* = T |V|. Raises UnreadableRun."""
+    """A number among the options; the relaxation time may stand there as the length L* = T |V|. Raises
+    UnreadableRun."""
     try:
         if parameter == "friction_time" and "friction_time" not in options:
             return float(options["friction_length"]) / abs(float(options["surface_speed"]))
         return float(options[parameter])
     except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
-        raise UnreadableRun(f"the homogeneous run has no number {parameter}: name another parameter, or set it.") from error
+        raise UnreadableRun(f"the homogeneous run has no number {parameter}: name another parameter, or set "
+                            "it.") from error
 
 
 class Trials:
-    """Runs of `program` (a list of words) with `options` in folders below `output`, each compared over `window` (s) with
-    `reference`, a spectrum as of `regime.friction_spectrum`."""
+    """Runs of `program` (a list of words) with `options` in folders below `output`, each compared over `window` (s)
+    with `reference`, a spectrum as of `regime.friction_spectrum`."""
 
     def __init__(self, program, options, output, window, reference):
         self.program, self.options, self.output = program, options, Path(output)

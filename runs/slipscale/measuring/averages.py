@@ -1,7 +1,7 @@
 """Means over a window with their standard errors, and whether a run had settled in it: the rules of summary.yaml.
 
-Signals are rows [n], evenly spaced in time. include/slipscale/record/averages.hpp is the same in C++; a picture, a table
-and the summary of one run over one window say the same.
+Signals are rows [n], evenly spaced in time. include/slipscale/record/averages.hpp is the same in C++; a picture, a
+table and the summary of one run over one window say the same.
 """
 
 from dataclasses import dataclass
@@ -38,8 +38,8 @@ def mean_of(rows):
 
 
 def ratio_of_means(top, bottom):
-    """A pair: mean of `top` over mean of `bottom`, never the mean of the ratio, which runs away when the body lifts off;
-    and the error of the mean of top - ratio bottom, over the mean of bottom. nan where that is zero."""
+    """A pair: mean of `top` over mean of `bottom`, never the mean of the ratio, which runs away when the body lifts
+    off; and the error of the mean of top - ratio bottom, over the mean of bottom. nan where that is zero."""
     below = np.mean(bottom)
     if below == 0:
         return np.nan, np.nan
@@ -59,8 +59,8 @@ def with_error(value, error):
 
 @dataclass
 class Settling:
-    """`drift`, difference of the means of the window's halves, of the mean; `amplitude_ratio`, standard deviation of the
-    second half over that of the first; `settled`, whether both are as if nothing changed."""
+    """`drift`, difference of the means of the window's halves, of the mean; `amplitude_ratio`, standard deviation of
+    the second half over that of the first; `settled`, whether both are as if nothing changed."""
 
     drift: float
     amplitude_ratio: float
@@ -68,10 +68,10 @@ class Settling:
 
 
 def settling(rows):
-    """Settled: the means of the halves differ by less than 1 % of the mean or by less than three standard errors of their
-    difference, and the standard deviations by less than a quarter, where they are above 1 % of the mean. An amplitude
-    that grows by more than a half is not settled however small it is, for an instability begins so; below 1e-10 of the
-    mean it is rounding."""
+    """Settled: the means of the halves differ by less than 1 % of the mean or by less than three standard errors of
+    their difference, and the standard deviations by less than a quarter, where they are above 1 % of the mean. An
+    amplitude that grows by more than a half is not settled however small it is, for an instability begins so; below
+    1e-10 of the mean it is rounding."""
     half = len(rows) // 2
     first, second = rows[:half], rows[len(rows) - half:]
     mean, step = np.mean(rows), np.mean(second) - np.mean(first)
@@ -83,3 +83,7 @@ def settling(rows):
     grows = after > GROWTH * before and after > ROUNDING_OF_SUMS * abs(mean)
     return Settling(float(step / abs(mean)) if mean != 0 else 0.0, float(after / before) if before > 0 else 1.0,
                     bool(same_mean and not grows and (not vibrates or same_size)))
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.measuring.averages is a library, no command: slipscale -h lists the commands.")

@@ -6,12 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from slipscale.measuring import distance, spectrum
-from slipscale.measuring.averages import Settling, mean_of, ratio_of_means, settling
+from slipscale.measuring.averages import ROUNDING_OF_SUMS, Settling, mean_of, ratio_of_means, settling
 from slipscale.measuring.regime import HIGHEST, STILL, friction_signal, regime
 from slipscale.measuring.window import choose_window, default_window, rows_in
 from slipscale.reading import History, Summary, UnreadableRun
 
 DOUBT = 3  # standard errors of the difference, from which on two means differ
+KINDS = {"normal_force": "force", "tangential_force": "force", "power_into_body": "power", "drive_power": "power"}
 UNITS = {"friction": "1", "normal_force": "N/m", "tangential_force": "N/m", "stick": "1", "slip": "1", "open": "1",
          "power_into_body": "W/m", "drive_power": "W/m"}
 
@@ -88,18 +89,32 @@ def read_compared(folder, window, point=0, name=None):
 
 @dataclass
 class Difference:
-    """Of a mean of a run from that of the first: `value`, its standard error `error`, and whether it is beyond DOUBT of
-    them; None where there is no error to hold it against."""
+    """Of a mean of a run from that of the first: `value`, its standard error `error`, no less than rounding makes it,
+    whether it is beyond DOUBT of them; None where there is no error to hold it against. `scatters`: whether the
+    error is more than rounding."""
 
     value: float
     error: float
     differs: bool
+    scatters: bool = True
 
 
-def difference(own, first):
-    """Of two pairs of value and standard error."""
+def difference(own, first, size=0.0):
+    """Of two pairs of value and standard error; `size` is that of what both are sums or parts of, if it is larger than
+    they are: to its rounding they are known."""
     value, error = own[0] - first[0], float(np.hypot(own[1], first[1]))
-    return Difference(value, error, None if not np.isfinite(error) else bool(abs(value) > DOUBT * error))
+    if not np.isfinite(error):
+        return Difference(value, error, None)
+    rounding = ROUNDING_OF_SUMS * max(abs(own[0]), abs(first[0]), size)
+    return Difference(value, max(error, rounding), bool(abs(value) > DOUBT * max(error, rounding)), error > rounding)
+
+
+def differences(run, first):
+    """The Difference of each mean that both have, by name."""
+    sizes = {kind: max((abs(mean.means[name][0]) for mean in (run, first) for name, of in KINDS.items()
+                        if of == kind and name in mean.means), default=0.0) for kind in set(KINDS.values())}
+    return {name: difference(run.means[name], first.means[name], sizes[KINDS[name]] if name in KINDS else 1.0)
+            for name in UNITS if name in run.means and name in first.means}
 
 
 def distances(run, first):

@@ -100,3 +100,7 @@ def falling(h):
     if not (np.all(h > 0) and np.all(np.diff(h) < 0)):
         raise ValueError("sizes have to be positive and fall from coarse to fine")
     return h
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.measuring.convergence is a library, no command: slipscale -h lists the commands.")

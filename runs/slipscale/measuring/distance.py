@@ -44,3 +44,7 @@ def portrait_distance(portrait, reference):
     own, other = (np.quantile(directions @ ((np.asarray(each) - middle) / spread), levels, axis=1)
                   for each in (portrait, reference))
     return float(np.mean(np.abs(own - other)))
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.measuring.distance is a library, no command: slipscale -h lists the commands.")

@@ -10,8 +10,8 @@ mean normal force, never the mean of the ratio: the normal force can come near z
 import numpy as np
 
 from slipscale.measuring import spectrum
-from slipscale.measuring.averages import ratio_of_means
-from slipscale.measuring.window import FEWEST_ROWS, rows_in
+from slipscale.measuring.averages import mean_of, ratio_of_means, settling
+from slipscale.measuring.window import FEWEST_ROWS, rows_in, too_few
 from slipscale.reading import History, Summary, UnreadableRun
 
 HIGHEST = 2e6  # Hz, up to which spectra are compared
@@ -23,28 +23,37 @@ MEASURES = {  # name: (unit, what it is)
     "friction": ("1", "mean tangential over mean normal force at the measured boundary"),
     "friction_error": ("1", "standard error of friction, from blocks of the window"),
     "normal_force": ("N/m", "mean normal force there"),
-    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant"),
+    "normal_force_error": ("N/m", "its standard error"),
+    "frequency": ("Hz", "strongest line of the spectrum of the tangential over the mean normal force; 0 if constant, "
+                        "or if what varies most is slower than the window can tell"),
     "amplitude": ("1", "standard deviation of the tangential over the mean normal force"),
     "stick": ("1", "part of the contact's length, on average over time"),
-    "slip": ("1", "the same"),
-    "open": ("1", "the same"),
+    "stick_error": ("1", "its standard error"),
+    "slip": ("1", "the same of what slips"),
+    "slip_error": ("1", "its standard error"),
+    "open": ("1", "the same of what is open"),
+    "open_error": ("1", "its standard error"),
     "displacement": ("m", "mean tangential displacement of the probe point M"),
     "displacement_deviation": ("m", "its standard deviation over time"),
     "velocity": ("m/s", "root of the mean square of the tangential velocity of M"),
     "power_into_body": ("W/m", "mean of τ du_x/dt along the surface"),
+    "power_into_body_error": ("W/m", "its standard error"),
     "drive_power": ("W/m", "mean of τ V along the surface"),
+    "drive_power_error": ("W/m", "its standard error"),
     "power_ratio": ("1", "mean power into the body over mean drive power"),
-    "settled": ("1", "amplitude in the second half of the window over that in the first"),
+    "power_ratio_error": ("1", "its standard error"),
+    "settled": ("", "whether the second half of the window is like the first, by the rule of summary.yaml"),
+    "amplitude_ratio": ("1", "amplitude in the second half of the window over that in the first"),
     "regime": ("", "open, steady, slip, stick-slip, slip-separated or stick-slip-separated"),
 }
 
 
-def rows_of(history, window):
-    """The rows in the window (two times in s). Raises UnreadableRun when they are too few for a spectrum."""
+def rows_of(history, window, fewest=FEWEST_ROWS):
+    """The rows in the window (two times in s). Raises UnreadableRun when they are fewer than `fewest`, by default too
+    few for a spectrum."""
     rows = rows_in(history.time, window)
-    if rows.stop - rows.start < FEWEST_ROWS:
-        raise UnreadableRun(f"Only {max(0, rows.stop - rows.start)} rows lie between {window[0]:g} and {window[1]:g} s, "
-                            f"and averages need {FEWEST_ROWS}: let the run end later or lower history_every.")
+    if rows.stop - rows.start < fewest:
+        raise UnreadableRun(too_few(history.time, window, fewest))
     return rows
 
 
@@ -57,8 +66,8 @@ def friction_signal(history, boundary, rows):
 
 def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
     """The name that Peillex, Baillet, Berthier (IJTC2007-44438) give to what the contact does over time; steady where
-    nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip hardly
-    moves the mean friction, but it takes power. Open where the body does not touch at all."""
+    nothing vibrates, though an edge of the contact may be open for good. A wave that runs around a periodic strip
+    hardly moves the mean friction, but it takes power. Open where the body does not touch at all."""
     if open_ >= 1 - 1e-9:
         return "open"
     if amplitude <= STEADY * abs(friction) and abs(power_ratio) <= STEADY:
@@ -67,30 +76,44 @@ def regime(stick, open_, amplitude=np.inf, friction=1.0, power_ratio=0.0):
     return f"{name}-separated" if open_ > SHARE else name
 
 
-def measures(folder, window, point=0):
-    """MEASURES of the run in `folder` over `window` (s); those of the probe `point` only if it was recorded. Raises
-    UnreadableRun."""
+def measures(folder, window, point=0, fewest=FEWEST_ROWS):
+    """MEASURES of the run in `folder` over `window` (s); those of the probe `point` only if it was recorded. What so
+    many rows do not tell is None: errors of fewer than 10, and where `fewest` is below FEWEST_ROWS, the frequency.
+    Raises UnreadableRun."""
     history, summary = History(folder), Summary(folder)
-    rows = rows_of(history, window)
+    rows = rows_of(history, window, fewest)
     boundary = summary.measured_boundary(history)
+    forces = {force: history.boundary[boundary][f"{force}_force"][rows] for force in ("tangential", "normal")}
     signal = friction_signal(history, boundary, rows)
-    values, rate = spectrum.evenly_spaced(history.time[rows], signal)
-    half = len(signal) // 2
-    first = np.std(signal[:half])
+    settled = settling(signal)
     found = {
         "friction": history.mean_friction(boundary, rows),
-        "friction_error": ratio_of_means(*(history.boundary[boundary][f"{force}_force"][rows]
-                                           for force in ("tangential", "normal")))[1],
-        "normal_force": np.mean(history.boundary[boundary]["normal_force"][rows]),
-        "frequency": spectrum.dominant_frequency(*spectrum.welch(values, rate)) if np.ptp(values) > STILL else 0.0,
+        "friction_error": ratio_of_means(forces["tangential"], forces["normal"])[1],
+        **with_its_error("normal_force", forces["normal"]),
+        "frequency": frequency(history.time[rows], signal),
         "amplitude": np.std(signal),
-        **{state: np.mean(history.contact[state][rows]) for state in ("stick", "slip", "open")},
+        **{name: value for state in ("stick", "slip", "open")
+           for name, value in with_its_error(state, history.contact[state][rows]).items()},
         **point_measures(history.points, point, rows),
         **power_measures(history.surface, rows),
-        "settled": np.std(signal[half:]) / first if first > 0 else 1.0,
+        "amplitude_ratio": settled.amplitude_ratio,
     }
-    name = regime(*(found[part] for part in ("stick", "open", "amplitude", "friction", "power_ratio")))
-    return {**{name: float(value) for name, value in found.items()}, "regime": name}
+    found = {**{name: float(value) if np.isfinite(value) else None for name, value in found.items()},
+             "settled": settled.settled,
+             "regime": regime(*(found[part] for part in ("stick", "open", "amplitude", "friction", "power_ratio")))}
+    return {name: found[name] for name in MEASURES if name in found}
+
+
+def with_its_error(name, rows):
+    return dict(zip((name, f"{name}_error"), mean_of(rows)))
+
+
+def frequency(time, signal):
+    """The strongest line of a signal, Hz: 0 if it is constant to rounding, nan from too few rows."""
+    if len(signal) < FEWEST_ROWS:
+        return np.nan
+    values, rate = spectrum.evenly_spaced(time, signal)
+    return spectrum.dominant_frequency(*spectrum.welch(values, rate)) if np.ptp(values) > STILL else 0.0
 
 
 def point_measures(points, point, rows):
@@ -101,8 +124,10 @@ def point_measures(points, point, rows):
 
 
 def power_measures(surface, rows):
-    into, drive = np.mean(surface["power_into_body"][rows]), np.mean(surface["drive_power"][rows])
-    return {"power_into_body": into, "drive_power": drive, "power_ratio": into / drive if drive != 0 else 0.0}
+    into, drive = (surface[power][rows] for power in ("power_into_body", "drive_power"))
+    ratio, error = ratio_of_means(into, drive) if np.mean(drive) != 0 else (0.0, np.nan)
+    return {**with_its_error("power_into_body", into), **with_its_error("drive_power", drive), "power_ratio": ratio,
+            "power_ratio_error": error}
 
 
 def costs(folder):

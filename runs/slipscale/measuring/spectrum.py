@@ -38,17 +38,30 @@ def welch(values, rate, segment=None):
     return np.fft.rfftfreq(segment, 1 / rate), density
 
 
-def dominant_frequency(frequency, density, lowest=None):
-    """Frequency in Hz of the highest peak at or above `lowest` (default: the third bin, to pass over drift).
+FIRST_RESOLVED_BIN = 3  # what is slower varies less than three times in a segment and cannot be told from drift
+
+
+def dominant_frequency(frequency, density):
+    """`strongest_line`, but 0 where the density is higher below the first resolved bin: what dominates is then slower
+    than the window can tell. The rule of summary.yaml."""
+    slower, line = density[1:FIRST_RESOLVED_BIN], density[FIRST_RESOLVED_BIN:]
+    return 0.0 if len(line) and np.max(slower) > np.max(line) else strongest_line(frequency, density)
+
+
+def strongest_line(frequency, density):
+    """Frequency in Hz of the highest peak at or above the first resolved bin.
 
     Interpolated between bins; exact for one sinusoid seen through a Hann window, up to its mirror image.
     """
     step = frequency[1]
-    first = 3 if lowest is None else int(np.ceil(lowest / step))
-    first = min(max(first, 1), len(density) - 1)
+    first = min(FIRST_RESOLVED_BIN, len(density) - 1)
     peak = first + int(np.argmax(density[first:]))
     if peak == len(density) - 1 or density[peak] == 0:
         return frequency[peak]
     side = 1 if density[peak + 1] >= density[peak - 1] else -1
     ratio = np.sqrt(density[peak + side] / density[peak])
     return frequency[peak] + side * step * max(0.0, (2 * ratio - 1) / (ratio + 1))
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.measuring.spectrum is a library, no command: slipscale -h lists the commands.")

@@ -72,7 +72,7 @@ def motion_of(time, pressure, traction, velocity, shares):
     _, power = cross_spectrum(traction, velocity, rate, shares)
     peak = PASSED_OVER + int(np.argmax(np.abs(driven[PASSED_OVER:])))
     line = slice(max(1, peak - LINE), peak + LINE + 1)
-    return SurfaceMotion(spectrum.dominant_frequency(frequency, np.abs(driven)), complex(driven[line].sum()),
+    return SurfaceMotion(spectrum.strongest_line(frequency, np.abs(driven)), complex(driven[line].sum()),
                          float(power[line].real.sum()), float(np.mean((traction * velocity) @ shares)))
 
 

@@ -6,6 +6,7 @@ from slipscale.reading.files import UnreadableRun
 
 MICRO = 1e6
 FEWEST_ROWS = 32  # in a window: enough for three segments of a spectrum
+FEWEST_FOR_MEANS = 2
 
 
 def rows_in(time, window):
@@ -23,14 +24,21 @@ def default_window(time):
     return 0.5 * (time[0] + time[-1]), time[-1]
 
 
-def choose_window(time, window=None):
-    """The window asked for, cut to the run, or else the default. Raises UnreadableRun when it has too few rows."""
+def too_few(time, window, fewest=FEWEST_ROWS):
+    """What is said of a window with fewer rows than that."""
+    rows = rows_in(time, window)
+    what = "a spectrum needs" if fewest >= FEWEST_ROWS else "means need"
+    return (f"Only {max(0, rows.stop - rows.start)} rows are recorded between {window[0]:g} and {window[1]:g} s (the "
+            f"run has reached {time[-1]:g} s) and {what} {fewest}: choose another window, let the run go on, or lower "
+            "history_every.")
+
+
+def choose_window(time, window=None, fewest=FEWEST_ROWS):
+    """The window asked for, cut to the run, or else the default. Raises UnreadableRun when it has fewer rows than
+    `fewest`."""
     begin, end = window or default_window(time)
     begin, end = max(begin, time[0]), min(end, time[-1])
     rows = rows_in(time, (begin, end))
-    if rows.stop - rows.start < FEWEST_ROWS:
-        raise UnreadableRun(
-            f"Only {max(0, rows.stop - rows.start)} rows are recorded between {begin:g} and {end:g} s (the run has "
-            f"reached {time[-1]:g} s) and a spectrum needs {FEWEST_ROWS}: choose another window, wait, or lower "
-            "history_every.")
+    if rows.stop - rows.start < fewest:
+        raise UnreadableRun(too_few(time, (begin, end), fewest))
     return begin, end

@@ -4,7 +4,7 @@ import numpy as np
 
 from slipscale.measuring.window import MICRO
 from slipscale.pictures.colours import BLUE, VERMILION
-from slipscale.reading import SAME_TIME, History, UnreadableRun
+from slipscale.reading import History, UnreadableRun
 from slipscale.reading.mesh import cells_at
 
 MEGA = 1e-6
@@ -44,13 +44,19 @@ def heterogeneous_history(folder, fields, x):
     return fields.time, fields.cell_history("stress", cell)
 
 
-def history_panel(axes, before, point, reference, component, name, shown):
+def half_a_row(*times):
+    """Half of the shortest spacing of rows, s: what lies no further outside is not beyond the end of a record."""
+    return 0.5 * min((np.median(np.diff(time)) for time in times if len(time) > 1), default=0.0)
+
+
+def history_panel(axes, before, point, reference, component, name, shown, word="difference"):
     """One component of the local stress over time, called `name`; `before` is put before the title.
 
-    `reference` are the times and the stress of the heterogeneous run, `shown` is a time to mark, s, or None.
+    `reference` are the times and the stress of the heterogeneous run, `shown` is a time to mark, s, or None; `word` is
+    for how far the others are from it.
     """
     time, expected = reference[0], reference[1][:, component] * MEGA
-    near = SAME_TIME * point.time[-1]
+    near = half_a_row(time, point.time)
     inside = (time >= point.time[0] - near) & (time <= point.time[-1] + near)
     lines = (("heterogeneous", time[inside], expected[inside], "0.6", 4.5),  # seen below a curve that lies on it
              ("homogeneous", point.time, point.homogeneous_stress[:, component] * MEGA, BLUE, 1.2),
@@ -66,7 +72,7 @@ def history_panel(axes, before, point, reference, component, name, shown):
         axes.axvline(shown * MICRO, color="0.7", linewidth=1, zorder=0)
     where = ", ".join(f"{x * 1e3:.4g}" for x in point.x)
     axes.grid(alpha=0.25)
-    differ = f"\nrelative L2 difference: {', '.join(errors)}" if errors else ""
+    differ = f"\nrelative L2 {word}: {', '.join(errors)}" if errors else ""
     axes.set(title=f"{before}in {point.region} at ({where}) mm{differ}", xlabel="time [µs]", ylabel=f"{name} [MPa]")
 
 
@@ -74,5 +80,5 @@ def legend_below(figure, axes):
     """One legend for all of the panels that `history_panel` drew, below them."""
     handles, labels = next((panel.get_legend_handles_labels() for panel in axes if panel.lines), ([], []))
     if handles:
-        figure.supxlabel(" ")  # room for it
+        figure.supxlabel(" \n ", fontsize="medium")  # room for it
         figure.legend(handles, labels, loc="lower center", ncol=len(labels), frameon=False)

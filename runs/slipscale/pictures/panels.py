@@ -100,7 +100,8 @@ def friction_signal(history, boundary, rows):
 def friction_spectrum(axes, history, boundary, window, highest=2e6):
     """Welch spectrum of the friction in the window up to `highest` Hz.
 
-    Returns the dominant frequency in Hz, or None when the friction does not vary.
+    Returns the dominant frequency in Hz, 0 where what varies most is slower than the window can tell, or None when
+    friction does not vary.
     """
     rows = rows_in(history.time, window)
     values, name = friction_signal(history, boundary, rows)
@@ -113,10 +114,14 @@ def friction_spectrum(axes, history, boundary, window, highest=2e6):
     frequency, amplitude = frequency[shown], np.sqrt(density[shown])
     dominant = spectrum.dominant_frequency(frequency, amplitude**2)
     axes.semilogy(frequency[1:] / 1e3, amplitude[1:], color=BLUE, linewidth=1.2)
-    axes.axvline(dominant / 1e3, color=VERMILION, linestyle="--", linewidth=1.2)
-    right = dominant < 0.6 * frequency[-1]
-    axes.annotate(f"{dominant / 1e3:.1f} kHz", (dominant / 1e3, 0.93), (6 if right else -6, 0), color=VERMILION,
-                  xycoords=("data", "axes fraction"), textcoords="offset points", ha="left" if right else "right")
+    if dominant:
+        axes.axvline(dominant / 1e3, color=VERMILION, linestyle="--", linewidth=1.2)
+        right = dominant < 0.6 * frequency[-1]
+        axes.annotate(f"{dominant / 1e3:.1f} kHz", (dominant / 1e3, 0.93), (6 if right else -6, 0), color=VERMILION,
+                      xycoords=("data", "axes fraction"), textcoords="offset points", ha="left" if right else "right")
+    else:
+        axes.annotate("what varies most is slower\nthan the window can tell", (0.98, 0.93), color=VERMILION, ha="right",
+                      va="top", xycoords="axes fraction")
     axes.set_ylim(max(amplitude[1:].min(), amplitude.max() * 1e-6), amplitude.max() * 4)
     axes.set_xlim(0, frequency[-1] / 1e3)
     axes.grid(alpha=0.25)
@@ -186,11 +191,12 @@ def energy_ledger(axes, history):
 
 
 def relative_residual(history):
-    """Largest residual of the energy balance over the energy that flowed by the end; None when not recorded."""
+    """Largest residual of the energy balance over what had flowed by then, of all rows, as summary.yaml has it; None when
+    not recorded."""
     residual, flowed = history.energy.get("residual"), history.energy.get("flowed")
     if residual is None or flowed is None or not flowed[-1] > 0:
         return None
-    return np.max(np.abs(residual)) / flowed[-1]
+    return np.max(np.abs(residual[flowed > 0]) / flowed[flowed > 0])
 
 
 def say(axes, title, sentence):

@@ -10,7 +10,7 @@ import textwrap
 import numpy as np
 
 from slipscale.measuring.averages import mean_of, ratio_of_means, settling, with_error
-from slipscale.measuring.regime import measures
+from slipscale.measuring.regime import friction_signal, measures
 from slipscale.measuring.window import MICRO, choose_window, rows_in
 from slipscale.parser import Parser
 from slipscale.pictures import panels
@@ -61,8 +61,9 @@ def headline(folder, history, summary, boundary, window, dominant):
         state += f" of {planned * MICRO:.4g} µs: still running, or stopped early"
     normal, tangential = (history.boundary[boundary][f"{force}_force"][rows] for force in ("normal", "tangential"))
     numbers = [f"mean T / mean N = {with_error(*ratio_of_means(tangential, normal))}"
-               if np.mean(normal) > 0 else "no load", f"mean N = {with_error(*(part / 1e3 for part in mean_of(normal)))} kN/m",
-               "settled" if settling(tangential).settled else "NOT SETTLED"]
+               if np.mean(normal) > 0 else "no load",
+               f"mean N = {with_error(*(part / 1e3 for part in mean_of(normal)))} kN/m",
+               "settled" if settling(friction_signal(history, boundary, rows)).settled else "NOT SETTLED"]
     if dominant:
         numbers.append(f"dominant frequency {dominant / 1e3:.1f} kHz")
     shares = [f"{name} {with_error(*(100 * part for part in mean_of(history.contact[name][rows])))} %"

@@ -47,6 +47,9 @@ class Compared:
                       for name in NAMES[1:]}
 
 
+NOTE = 0.4  # inches that a further line of the title takes
+
+
 def at_points(file, values, points):
     """Values [nc] of the cells of a file at points [n, 2]; nan outside."""
     own, _ = centroids_and_areas(file.coordinates, file.triangles, file.cell_of_triangle)
@@ -81,13 +84,13 @@ def chosen_points(points):
     return sorted(range(len(points)), key=lambda k: (first[points[k].region] != k, k))[:PROBES]
 
 
-def history_panels(axes, figure_fields, points, reference_folder, reference, component, name, shown):
+def history_panels(axes, figure_fields, points, reference_folder, reference, component, name, shown, word):
     """Histories at up to two points, which the maps show as letters."""
     numbers = chosen_points(points)
     scale, _ = length_unit(reference.coordinates)
     for panel, letter, k in zip(axes, "ef", numbers):
         history_panel(panel, f"({letter}) ", points[k], heterogeneous_history(reference_folder, reference, points[k].x),
-                      component, name, shown)
+                      component, name, shown, word)
         for field in figure_fields:
             field.plot(*(points[k].x * scale), "o", color="white", markeredgecolor="black", markersize=5)
             field.annotate(letter, points[k].x * scale, (5, 5), textcoords="offset points", fontweight="bold",
@@ -137,14 +140,15 @@ def draw(reference, relocalised, homogeneous, component="yy", time=None, statist
         try:
             points = opened.enter_context(Fields(relocalised, "relocalized.h5", "relocalize")).local_points()
             fields = opened.enter_context(Fields(reference))
-            history_panels(histories, maps, points, reference, fields, index, name, shown)
+            history_panels(histories, maps, points, reference, fields, index, name, shown, word)
         except UnreadableRun as error:
             for panel in histories:
                 say(panel, "Local stress over time", str(error))
         legend_below(figure, histories)
+        figure.set_figheight(figure.get_figheight() + NOTE * len(notes))
         before, after = compared.error["homogeneous"], compared.error["relocalised"]
-        figure.suptitle("\n".join([f"Local stress {name}, {compared.when}: heterogeneous, relocalised, homogeneous", *notes,
-                                   f"relative L2 {word}: homogeneous {in_digits(before)}   |   relocalised "
+        figure.suptitle("\n".join([f"Local stress {name}, {compared.when}: heterogeneous, relocalised, homogeneous",
+                                   *notes, f"relative L2 {word}: homogeneous {in_digits(before)}   |   relocalised "
                                    f"{in_digits(after)}"]), fontsize="large", fontweight="bold")
     return figure
 

@@ -7,7 +7,8 @@ from slipscale.measuring.regime import MEASURES
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.running.table import OUTCOME
 
-REGIMES = {"slip": SKY, "stick-slip": BLUE, "slip-separated": ORANGE, "stick-slip-separated": VERMILION}
+REGIMES = {"open": "0.75", "steady": "#B9E3D3", "slip": SKY, "stick-slip": BLUE, "slip-separated": ORANGE,
+           "stick-slip-separated": VERMILION}
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, BLACK)
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 UNITS = {  # of measures and of the options that are varied most

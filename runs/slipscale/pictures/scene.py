@@ -3,8 +3,8 @@
     slipscale scene scene.yaml scene.png [--mesh block.msh] [--set boundary_top_y=-2e-6]
     slipscale scene out/first scene.png          the scene of a run, from its run.yaml
 
-The first argument is the YAML file that slide is given, or the folder of a run. Exits with code 2 and one sentence when there
-is nothing to draw.
+The first argument is the YAML file that slide is given, or the folder of a run. Exits with code 2 and one sentence when
+there is nothing to draw.
 """
 
 from pathlib import Path
@@ -101,7 +101,8 @@ def condition_words(conditions):
     known = {*SIDES, *LOADS, "ramp"}
     said += [f"{name} {value}" for name, value in conditions.items() if name not in known]
     ramp = number_or_text(str(conditions.get("ramp", 0)))
-    return ", ".join(said) + (f", within {engineering(ramp, 's')}" if said and isinstance(ramp, (int, float)) and ramp else "")
+    ramped = said and isinstance(ramp, (int, float)) and ramp
+    return ", ".join(said) + (f", within {engineering(ramp, 's')}" if ramped else "")
 
 
 def draw_regions(axes, mesh, scale):
@@ -124,7 +125,8 @@ def material_words(scene, name):
         found = {part: scene.number(f"material_{region}_{part}") for part in ("young", "poisson", "density")}
         if found["young"]:
             return f"E = {engineering(found['young'], 'Pa')}, ν = {found['poisson']:g}"
-    return "effective material" if any(name.endswith("_file") and name.startswith("material") for name in scene.options) else ""
+    measured = any(name.endswith("_file") and name.startswith("material") for name in scene.options)
+    return "effective material" if measured else ""
 
 
 def draw_curves(axes, scene, scale, size, bottom):
@@ -143,7 +145,8 @@ def draw_curves(axes, scene, scale, size, bottom):
         sign = 1.0 if away[1 if flat_side else 0] >= 0 else -1.0
         offset = (0, sign * (14 if sign > 0 else 4)) if flat_side else (sign * 10, 0)
         if name == bottom:
-            axes.annotate(f"{name}: {said}", middle + (0.25 * (high[0] - low[0]), 0), (0, 8), textcoords="offset points", ha="center", va="bottom",
+            axes.annotate(f"{name}: {said}", middle + (0.25 * (high[0] - low[0]), 0), (0, 8),
+                          textcoords="offset points", ha="center", va="bottom",
                           color=colour, zorder=5, bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 1})
             continue
         axes.annotate(f"{name}: {said}", middle, offset, textcoords="offset points", color=colour, zorder=5,
@@ -182,7 +185,8 @@ def scale_bar(axes, low, high, unit):
 def friction_words(scene):
     """The law and its numbers."""
     law = scene.options.get("friction_law", "none")
-    numbers = [f"{symbol} = {engineering(scene.number(f'friction_{name}'), unit) if unit else scene.number(f'friction_{name}')}"
+    numbers = [f"{symbol} = "
+               f"{engineering(scene.number(f'friction_{name}'), unit) if unit else scene.number(f'friction_{name}')}"
                for name, symbol, unit in (("coefficient", "µ", ""), ("length", "L*", "m"), ("time", "T", "s"))
                if scene.number(f"friction_{name}") is not None]
     return f"friction: {law}" + (f", {', '.join(numbers)}" if numbers else "")
@@ -215,11 +219,12 @@ def draw(scene):
     handles = [Patch(facecolor=SHADES[k % len(SHADES)], edgecolor=BLACK,
                      label=", ".join(filter(None, [f"{name} {100 * share_of(mesh, region):.3g} %",
                                                    material_words(scene, name)])))
-               for k, (region, name) in enumerate([(region, mesh.region_names[region]) for region in by_size(mesh)][:8])]
+               for k, (region, name) in enumerate([(region, mesh.region_names[region])
+                                                   for region in by_size(mesh)][:8])]
     figure.legend(handles=handles, loc="lower center", ncol=2 if len(handles) > 1 else 1, frameon=False)
     figure.supxlabel(" \n" * (1 + len(handles) // 3))  # room for it
-    figure.suptitle(f"{scene.name}: {len(mesh.triangles)} triangles, {len(mesh.coordinates)} nodes\n{friction_words(scene)}",
-                    fontsize="large", fontweight="bold")
+    figure.suptitle(f"{scene.name}: {len(mesh.triangles)} triangles, {len(mesh.coordinates)} nodes\n"
+                    f"{friction_words(scene)}", fontsize="large", fontweight="bold")
     return figure
 
 
@@ -227,7 +232,8 @@ def main(arguments=None):
     parser = Parser("scene", __doc__)
     parser.add_argument("scene", help="YAML file of options of slide, or the folder of a run")
     parser.add_argument("--mesh", help="in place of the scene's mesh_file")
-    parser.add_argument("--set", action="append", default=[], metavar="OPTION=VALUE", help="in place of the scene's own")
+    parser.add_argument("--set", action="append", default=[], metavar="OPTION=VALUE",
+                        help="in place of the scene's own")
 
     def figure(options):
         changes = {name: number_or_text(value) for name, _, value in (word.partition("=") for word in options.set)}

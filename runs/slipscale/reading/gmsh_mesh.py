@@ -1,6 +1,7 @@
 """Meshes of gmsh, MSH 4.1 in text or binary, as far as a picture of a scene needs them.
 
-Format: gmsh's reference manual, section 9 (MSH file format). Parts belong to the physical groups that gmsh's $Entities give them.
+Format: gmsh's reference manual, section 9 (MSH file format). Parts belong to the physical groups that gmsh's $Entities
+give them.
 """
 
 import struct
@@ -13,7 +14,8 @@ from slipscale.mistakes import Mistake
 from slipscale.reading.mesh import interfaces
 
 NODES_OF = {1: 2, 2: 3, 3: 4, 15: 1}  # of a line, a triangle, a quadrilateral, a point
-CORNERS = {8: (1, 3), 9: (2, 6), 16: (3, 8), 10: (3, 9)}  # second order: the corner nodes' kind, and how many nodes there are
+# Second order: the corner nodes' kind, and how many nodes there are.
+CORNERS = {8: (1, 3), 9: (2, 6), 16: (3, 8), 10: (3, 9)}
 
 
 @dataclass
@@ -79,7 +81,8 @@ def _sections(data):
     while (start := data.find(b"$", start)) >= 0:
         end = data.find(b"\n", start)
         name = data[start + 1:end].strip()
-        if (start == 0 or data[start - 1:start] == b"\n") and name.isalpha() and not name.startswith(b"End") and end > 0:
+        at_line = start == 0 or data[start - 1:start] == b"\n"
+        if at_line and name.isalpha() and not name.startswith(b"End") and end > 0:
             places.setdefault(name.decode(), end + 1)
         start += 1
     return places
@@ -129,7 +132,8 @@ def _nodes_text(words):
     for _ in range(blocks):
         _, _, _, number = map(int, words.line().split())
         tags.append(np.array([int(words.line()) for _ in range(number)], dtype=np.int64))
-        points.append(np.array([[float(word) for word in words.line().split()[:3]] for _ in range(number)]).reshape(-1, 3))
+        found = [[float(word) for word in words.line().split()[:3]] for _ in range(number)]
+        points.append(np.array(found).reshape(-1, 3))
     return _joined(tags, points, count)
 
 
@@ -177,7 +181,8 @@ def read_gmsh_mesh(path):
             raise Mistake(f"{path} has version {version} of gmsh's format: gmsh {path} -save -format msh41 -o new.msh")
         return _built(data, places, kind == "1")
     except (KeyError, ValueError, IndexError, struct.error) as error:
-        raise Mistake(f"{path} is no mesh of gmsh, MSH 4.1, that can be read ({error}): write it again with gmsh") from error
+        raise Mistake(f"{path} is no mesh of gmsh, MSH 4.1, that can be read ({error}): write it again with "
+                      "gmsh") from error
 
 
 def _section(data, places, name, binary):

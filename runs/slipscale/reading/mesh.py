@@ -62,3 +62,7 @@ def cells_at(coordinates, triangles, cell_of_triangle, points):
     finder = Triangulation(*coordinates[first].T, corners).get_trifinder()
     found = finder(*np.asarray(points, dtype=float).T)
     return np.where(found >= 0, cell_of_triangle[found], -1)
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.reading.mesh is a library, no command: slipscale -h lists the commands.")

@@ -1,4 +1,5 @@
-"""fields.h5, statistics.h5 and what `relocalize` and `homogenize` write alike: values on the cells and nodes of a mesh."""
+"""fields.h5, statistics.h5 and what `relocalize` and `homogenize` write alike: values on the cells and nodes of a
+mesh."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,8 +26,8 @@ class LocalPoint:
 class OnMesh:
     """A file that holds a mesh and what lies on it. Also a context manager: it stays open.
 
-    path; mesh_checksum; coordinates [np, 2] m; region [nc] and region_names; triangles [nt, 3] point numbers (a quadrilateral gives
-    two) and cell_of_triangle [nt].
+    path; mesh_checksum; coordinates [np, 2] m; region [nc] and region_names; triangles [nt, 3] point numbers (a
+    quadrilateral gives two) and cell_of_triangle [nt].
     """
 
     def __init__(self, path, program):

@@ -21,7 +21,8 @@ class Loader(yaml.SafeLoader):
     yaml_implicit_resolvers = {letter: list(pairs) for letter, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()}
 
 
-Loader.add_implicit_resolver(FLOAT, re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+$"), list("-+.0123456789"))
+Loader.add_implicit_resolver(FLOAT, re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+$"),
+                             list("-+.0123456789"))
 
 
 def _place(node):

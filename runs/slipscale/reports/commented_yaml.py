@@ -41,3 +41,7 @@ def group_of(path, group):
         elif inside:
             rows.append((found["key"], (found["value"] or "").strip(), found["note"] or ""))
     return rows
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.reports.commented_yaml is a library, no command: slipscale -h lists the commands.")

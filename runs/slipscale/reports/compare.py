@@ -2,14 +2,14 @@
 
     slipscale compare FOLDER FOLDER [FOLDER …] [--window FROM TO] [--point 0] [--picture compared.png]
 
-All are measured over one window, by default the second half of the shortest run. Means have standard errors from blocks of
-the window; a difference from the first run counts where it is more than three standard errors of it. Distances of spectra
-and of phase portraits stand beside those of the halves of the first run's window from each other, which is what scatter
-alone makes. Options in which the runs differ are listed.
+All are measured over one window, by default the second half of the shortest run. Means have standard errors from blocks
+of the window; a difference from the first run counts where it is more than three standard errors of it, which are never
+taken for less than rounding. Distances of spectra and of phase portraits stand beside those of the halves of the first
+run's window from each other, which is what scatter alone makes. Options in which the runs differ are listed.
 """
 
 from slipscale.measuring.averages import with_error
-from slipscale.measuring.comparing import UNITS, changed_options, difference, distances, read_all
+from slipscale.measuring.comparing import UNITS, changed_options, differences, distances, read_all
 from slipscale.measuring.window import MICRO
 from slipscale.parser import Parser
 
@@ -24,23 +24,26 @@ def judged(found):
     """A Difference as text."""
     if found.differs is None:
         return f"{found.value:+.3g}"
-    times = f"{abs(found.value) / found.error:.2g}" if found.error > 0 else "many" if found.value else "0"
-    return f"{found.value:+.3g}, {times} errors: {'differs' if found.differs else 'the same'}"
+    verdict = "differs" if found.differs else "the same"
+    if not found.scatters:
+        return f"{found.value:+.3g}, neither scatters: {verdict}{'' if found.differs else ' to rounding'}"
+    return f"{found.value:+.3g}, {abs(found.value) / found.error:.2g} errors: {verdict}"
 
 
 def numbers(runs):
     """The table of means, and of differences from the first run."""
     first, *others = runs
     rows = [["", *(run.name for run in runs), *(f"{run.name} less {first.name}" for run in others)]]
+    found = [differences(run, first) for run in others]
     for name, unit in UNITS.items():
         if name in first.means:
             rows.append([f"{name} [{unit}]",
                          *(with_error(*run.means[name]) if name in run.means else "-" for run in runs),
-                         *(judged(difference(run.means[name], first.means[name])) if name in run.means else "-"
-                           for run in others)])
+                         *(judged(each[name]) if name in each else "-" for each in found)])
     rows.append(["amplitude [1]", *(f"{run.amplitude:.3g}" for run in runs), *("" for _ in others)])
-    rows.append(["frequency [kHz]", *(f"{run.frequency * 1e-3:.4g}" for run in runs),
-                 *(f"{(run.frequency - first.frequency) * 1e-3:+.3g}" for run in others)])
+    rows.append(["frequency [kHz]", *(f"{run.frequency * 1e-3:.4g}" if run.frequency else "none" for run in runs),
+                 *(f"{(run.frequency - first.frequency) * 1e-3:+.3g}" if run.frequency and first.frequency else ""
+                   for run in others)])
     rows.append(["regime", *(run.regime for run in runs), *("" for _ in others)])
     rows.append(["settled", *(f"{'yes' if run.settling.settled else 'NO'}, amplitude ratio "
                               f"{run.settling.amplitude_ratio:.3g}" for run in runs), *("" for _ in others)])
@@ -54,7 +57,8 @@ def apart(runs):
     found = [distances(run, first) for run in others]
     for name in ("spectrum", "portrait"):
         if known := [each[name] for each in found if name in each]:
-            rows.append([name, *(f"{each[name][0]:.3g}" if name in each else "-" for each in found), f"{known[0][1]:.3g}"])
+            rows.append([name, *(f"{each[name][0]:.3g}" if name in each else "-" for each in found),
+                         f"{known[0][1]:.3g}"])
     return rows
 
 
@@ -65,7 +69,8 @@ def text(runs):
              aligned(numbers(runs)), aligned(apart(runs))]
     if changes := changed_options(runs):
         rows = [["option", *(run.name for run in runs)],
-                *([name, *("-" if value is None else str(value) for value in values)] for name, values in changes.items())]
+                *([name, *("-" if value is None else str(value) for value in values)]
+                  for name, values in changes.items())]
         parts.append(aligned(rows))
     else:
         parts.append("no option differs in run.yaml")
@@ -74,7 +79,8 @@ def text(runs):
 
 def main(arguments=None):
     parser = Parser("compare", __doc__)
-    parser.add_argument("folders", nargs="+", metavar="folder", help="output folders of slide; the first is held against")
+    parser.add_argument("folders", nargs="+", metavar="folder",
+                        help="output folders of slide; the first is held against")
     parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of means and spectra, s")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portraits (default 0)")
     parser.add_argument("--picture", help="image to write; the ending chooses the format")

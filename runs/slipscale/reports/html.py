@@ -13,7 +13,8 @@ body { margin: 0; background: var(--paper); color: var(--ink); font: 15px/1.5 sy
 main { max-width: 72rem; margin: 0 auto; padding: 2rem 1.5rem 4rem; }
 h1 { font-size: 1.7rem; margin: 0 0 .2rem; } h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem; }
 p.lead { color: var(--soft); margin: 0 0 1.5rem; } img { max-width: 100%; height: auto; }
-.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .8rem; margin: 1rem 0 1.5rem; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .8rem; margin: 1rem 0 1.5rem;
+}
 .card { background: var(--tint); border: 1px solid var(--line); border-radius: 6px; padding: .6rem .8rem; }
 .card b { display: block; font-size: 1.25rem; font-weight: 600; } .card span { color: var(--soft); font-size: .85rem; }
 table { border-collapse: collapse; font-size: .9rem; } td, th { padding: .22rem .8rem .22rem 0; text-align: left;
@@ -23,7 +24,8 @@ td.note, th { color: var(--soft); font-weight: 400; } tr.group td { font-weight:
 pre, code { font: .85rem/1.5 ui-monospace, monospace; } pre { background: var(--tint); border: 1px solid var(--line);
   padding: .7rem .9rem; overflow-x: auto; border-radius: 6px; }
 .columns { columns: 2 24rem; column-gap: 3rem; } .scroll { overflow-x: auto; }
-footer { color: var(--soft); font-size: .85rem; margin-top: 3rem; border-top: 1px solid var(--line); padding-top: .6rem; }
+footer { color: var(--soft); font-size: .85rem; margin-top: 3rem; border-top: 1px solid var(--line);
+  padding-top: .6rem; }
 """
 
 
@@ -34,8 +36,8 @@ def text(value):
 def document(title, body, foot=""):
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>{text(title)}</title>\n'
-            f"<style>{STYLE}</style>\n</head>\n<body>\n<main>\n{body}\n<footer>{text(foot)}</footer>\n</main>\n</body>\n"
-            "</html>\n")
+            f"<style>{STYLE}</style>\n</head>\n<body>\n<main>\n{body}\n<footer>{text(foot)}</footer>\n</main>\n"
+            "</body>\n</html>\n")
 
 
 def section(heading, body):

@@ -6,7 +6,6 @@
 Of a run: the picture, the numbers, warnings, the command that repeats it, every option in effect, mesh, energy ledger.
 """
 
-import sys
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
@@ -37,7 +36,3 @@ def main(arguments=None):
     html.write(output, page(given.folder))
     print(output)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -6,6 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from slipscale.measuring.averages import with_error
+from slipscale.measuring.regime import measures
+from slipscale.measuring.window import FEWEST_FOR_MEANS, choose_window
 from slipscale.mistakes import Mistake
 from slipscale.pictures.picture import draw
 from slipscale.reports import html
@@ -49,18 +51,26 @@ def number(value):
 
 
 def headline(run):
+    """Cards of number and meaning: what the rows of the window tell."""
     try:
-        found = run.measures()
+        begin, end = choose_window(run.time, None, FEWEST_FOR_MEANS)
+        found = measures(run.folder, (begin, end), fewest=FEWEST_FOR_MEANS)
     except Mistake:
         return []
-    cards = [(with_error(found["friction"], found["friction_error"]), "mean tangential over mean normal force"),
-             (found["regime"], "regime"),
-             (f"{found['frequency'] / 1e3:.4g} kHz" if found["frequency"] else "none", "strongest frequency of friction"),
-             (f"{100 * found['stick']:.1f} / {100 * found['slip']:.1f} / {100 * found['open']:.1f} %",
-              "of the contact sticks / slips / is open"),
-             (f"{found['normal_force'] / 1e3:.4g} kN/m", "mean normal force")]
-    begin, end = run.window()
-    return cards + [(f"{begin * 1e6:.4g} to {end * 1e6:.4g} µs", "window of these numbers")]
+
+    def mean(name, factor=1):
+        error = found[f"{name}_error"]
+        return with_error(factor * found[name], np.nan if error is None else factor * error)
+
+    frequency = {None: "not known", 0.0: "none"}.get(found["frequency"]) or f"{found['frequency'] / 1e3:.4g} kHz"
+    return [(mean("friction"), "mean tangential over mean normal force"),
+            ("yes" if found["settled"] else "NO", f"settled; amplitude ratio {found['amplitude_ratio']:.3g}, second "
+                                                  "half of the window over first"),
+            (found["regime"], "regime"), (frequency, "strongest frequency of friction"),
+            *((f"{mean(state, 100)} %", f"of the contact {says}")
+              for state, says in (("stick", "sticks"), ("slip", "slips"), ("open", "is open"))),
+            (f"{mean('normal_force', 1e-3)} kN/m", "mean normal force"),
+            (f"{begin * 1e6:.4g} to {end * 1e6:.4g} µs", "window of these numbers; ± are standard errors")]
 
 
 def warnings(run):
@@ -71,11 +81,12 @@ def warnings(run):
     try:
         found = run.settling()
         if not found.settled:
-            said.append(f"The run had not settled: from the first half of the window to the second the amplitude of friction "
-                        f"changes by the factor {found.amplitude_ratio:.3g} and its mean by {100 * found.drift:+.2g} %, so "
-                        "its averages belong to this window only.")
-    except Mistake as few:
-        said.append(str(few))
+            said.append("The run had not settled: from the first half of the window to the second the amplitude of "
+                        "friction "
+                        f"changes by the factor {found.amplitude_ratio:.3g} and its mean by {100 * found.drift:+.2g} "
+                        "%, so its averages belong to this window only.")
+    except Mistake:
+        pass  # too few rows, as stands in the place of the picture
     return said
 
 

@@ -4,15 +4,15 @@ from statistics import median
 
 from slipscale.pictures.scales import options_of, values_of, varied
 from slipscale.reports.publish import bullets, failures, folded
-from slipscale.running.table import markdown
+from slipscale.running.table import is_true, markdown
 
 SHOWN = {"friction": ".4f", "frequency": ".0f", "amplitude": ".3g", "stick": ".3f", "open": ".3f",
-         "power_ratio": ".3f", "settled": ".2f", "regime": "", "wall_seconds": ".1f"}
-UNITS = {"frequency": "frequency [Hz]", "power_ratio": "power into the body over drive", "wall_seconds": "seconds"}
+         "power_ratio": ".3f", "settled": "", "amplitude_ratio": ".2f", "regime": "", "wall_seconds": ".1f"}
+UNITS = {"frequency": "frequency [Hz]", "power_ratio": "power into the body over drive",
+         "amplitude_ratio": "amplitude ratio", "wall_seconds": "seconds"}
 
 
 VIBRATES = 0.01  # amplitude from which a run counts as vibrating
-SETTLED = 0.1  # by how much its amplitude may change from the first to the second half of the window
 
 
 def cell(row, name, form):
@@ -31,10 +31,19 @@ def counts(rows):
 
 def unsettled(rows):
     """What is no average of a limit cycle yet."""
-    loud = [row for row in rows if row["status"] == "ok" and row["amplitude"] > VIBRATES]
-    count = sum(abs(row["settled"] - 1) > SETTLED for row in loud)
-    return (f"{len(loud)} runs vibrate (amplitude above {VIBRATES:g}); in {count} of these the amplitude in the second half "
-            f"of the window is more than {SETTLED:.0%} off that in the first (`settled` far from 1): no limit cycle yet.")
+    ok = [row for row in rows if row["status"] == "ok"]
+    loud = [row for row in ok if row["amplitude"] > VIBRATES]
+    count, quiet = (sum(not is_true(row["settled"]) for row in some)
+                    for some in (loud, [row for row in ok if row not in loud]))
+    return (f"{len(loud)} runs vibrate (amplitude above {VIBRATES:g}); {count} of these, and {quiet} of the others, "
+            "had not settled (`settled`, the rule of summary.yaml): their averages belong to this window only.")
+
+
+def in_part(rows, options):
+    """A sentence for each row that lacks something, though its run came to its end."""
+    for row in rows:
+        if row["status"] == "ok" and row["reason"]:
+            yield f"In part: {at(row, options)}: {row['reason']}"
 
 
 def extremes(rows, options):
@@ -64,7 +73,8 @@ def change_table(rows, option):
             some = [pair for pair in pairs if pair[0][name] == value]
             if some:
                 moved = [abs(high["friction"] - low["friction"]) for low, high in some]
-                shift = [abs(high["frequency"] / low["frequency"] - 1) for low, high in some if low["frequency"]]
+                shift = [abs(high["frequency"] / low["frequency"] - 1) for low, high in some
+                         if low["frequency"] and high["frequency"] is not None]
                 lines.append([f"{name} {value}", len(some), f"{median(moved):.4f}", f"{max(moved):.4f}",
                               sum(part > 0.1 for part in shift),
                               sum(low["regime"] != high["regime"] for low, high in some)])
@@ -77,7 +87,8 @@ def report(rows, compared=None):
     table = markdown([*options, *(UNITS.get(name, name) for name in SHOWN), "status"], [
         [*(row[name] for name in options), *(cell(row, name, form) for name, form in SHOWN.items()), row["status"]]
         for row in rows])
-    text = bullets([counts(rows), unsettled(rows), *extremes(rows, varied(rows, options)), *failures(rows, options)])
+    text = bullets([counts(rows), unsettled(rows), *extremes(rows, varied(rows, options)), *in_part(rows, options),
+                    *failures(rows, options)])
     if compared in options and len(values_of(rows, compared)) > 1:
         text += f"\nBetween neighbouring values of {compared}, everything else equal:\n\n{change_table(rows, compared)}"
     return text + "\n" + folded("All runs", table)

@@ -3,8 +3,8 @@
     slipscale table out/sweep/table.csv [--columns friction_coefficient friction regime] [--where size=0.000125]
         [--sort friction] [--markdown]
 
-Without --columns: the options that were varied, and what was found. Rows that failed keep their reason. A folder may be given
-in place of its table.csv.
+Without --columns: the options that were varied, and what was found. Rows that failed, or lack something, keep their
+reason. A folder may be given in place of its table.csv.
 """
 
 from pathlib import Path
@@ -15,8 +15,8 @@ from slipscale.reports.compare import aligned
 from slipscale.running.attempt import number_or_text
 from slipscale.running.table import OUTCOME, markdown, read_csv
 
-FOUND = ("friction", "friction_error", "frequency", "amplitude", "stick", "open", "power_ratio", "settled", "regime",
-         *OUTCOME[:2])
+FOUND = ("friction", "friction_error", "frequency", "amplitude", "stick", "open", "power_ratio", "settled",
+         "amplitude_ratio", "regime", *OUTCOME[:2])
 
 
 def chosen_columns(rows, columns):
@@ -29,7 +29,7 @@ def chosen_columns(rows, columns):
     before = known[:known.index(OUTCOME[0])] if OUTCOME[0] in known else known
     varied = [name for name in before if len({str(row.get(name)) for row in rows}) > 1]
     found = [name for name in FOUND if name in known] if OUTCOME[0] in known else []
-    failed = any(row.get("status") != "ok" for row in rows)
+    failed = any(row.get("status") != "ok" or row.get("reason") for row in rows)
     return [*(varied or before), *(name for name in found if failed or name not in OUTCOME)]
 
 

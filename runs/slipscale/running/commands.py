@@ -32,3 +32,7 @@ def words(options):
 def settings(options):
     """A dict of options as name=value for a shell."""
     return " ".join(shlex.quote(f"{name}={word(value)}") for name, value in options.items())
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.running.commands is a library, no command: slipscale -h lists the commands.")

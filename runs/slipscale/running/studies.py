@@ -1,5 +1,6 @@
 """What a study is asked to do: its study.yaml, what is laid over it, and how many runs that makes."""
 
+import sys
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
@@ -63,15 +64,27 @@ def what_is_run(config, runs):
     groups = config.get("runs")
     groups = {name: len(grid(values)) for name, values in groups.items()} if isinstance(groups, dict) else {}
     said = ", ".join(f"{name} {count}" for name, count in groups.items() if count)
-    lines = [f"{len(runs)} runs" + (f": {said}" if said else "") + f"; they and the table are written to {config['output']}"]
+    groups_said = f": {said}" if said else ""
+    lines = [f"{len(runs)} runs{groups_said}; they and the table are written to {config['output']}"]
     if kept := [name for name in config.get("kept_groups", []) if groups.get(name)]:
-        lines.append(f"of study.yaml and not of what is laid over it: {', '.join(kept)}; `replace: [runs]` there leaves "
-                     "them out")
+        lines.append(f"of study.yaml and not of what is laid over it: {', '.join(kept)}; `replace: [runs]` there "
+                     "leaves them out")
     return "\n".join(lines)
 
 
+def started_by_snakemake(names):
+    """The job of a script of a Snakefile, which Snakemake puts among the `names` of the script; without, the script
+    says what starts it."""
+    if "snakemake" in names:
+        return names["snakemake"]
+    folder = Path(names["__file__"]).resolve().parent.name
+    sys.exit(f"{Path(names['__file__']).name} is a part of a Snakefile, no command: snakemake --snakefile "
+             f"runs/{folder}/Snakefile runs the study.")
+
+
 def finder(top):
-    """A function that finds a file from where the user stands, else below `top`; of no file it gives the path as it is."""
+    """A function that finds a file from where the user stands, else below `top`; of no file it gives the path as it
+    is."""
     def found_from_here(path):
         return str(Path(top) / path) if not Path(path).exists() and (Path(top) / path).exists() else str(path)
 

@@ -7,9 +7,9 @@ Options of slide and morphology with one minus; those with several values are va
   start:step:stop   a range; start:*factor:stop too          1,2,5   several values
   [0,-1],[0,-2]     values that are lists; of an option that takes a list, 0,-1 is one value
 The scene may be given as for slide, -options_file_yaml SCENE.yaml. What else the scene and the block are made of stands
-in the study.yaml of the folder runs/sweep, or in the files given in its place. Everything is found and written from where
-the command is given; all of it, the engine's notes included, below --output. Behind -- stand words for snakemake: -c4 for
-four cores (else all), --profile runs/profiles/slurm.
+in the study.yaml of the folder runs/sweep, or in the files given in its place. Everything is found and written from
+where the command is given; all of it, the engine's notes included, below --output. Behind -- stand words for snakemake:
+-c4 for four cores (else all), --profile runs/profiles/slurm.
 """
 
 import os

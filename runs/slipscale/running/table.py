@@ -39,7 +39,7 @@ def named_runs(groups, defaults):
 
 def collect(outcomes, read):
     """Rows (dicts) in the order of `outcomes` (paths of outcome.yaml): the options, how the run ended, and for one that
-    is ok what `read(folder)` gives."""
+    is ok what `read(folder)` gives, which may say for what `reason` some of it is empty."""
     rows = []
     for path in map(Path, outcomes):
         outcome = load(path, written=True)
@@ -53,13 +53,23 @@ def collect(outcomes, read):
     return rows
 
 
+def is_true(value):
+    """Whether a cell, of a row or as read from a file, says yes."""
+    return value is True or value == "true"
+
+
+def cell_of(value):
+    """A value as a file holds it: yes and no as YAML has them."""
+    return str(value).lower() if isinstance(value, bool) else value
+
+
 def write_csv(path, rows):
     """One line for each row; columns in the order in which they first appear, empty where a row has no value."""
     columns = list(dict.fromkeys(name for row in rows for name in row))
     text = io.StringIO()
     writer = csv.DictWriter(text, columns, lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({name: cell_of(value) for name, value in row.items()} for row in rows)
     write_whole(Path(path), text.getvalue())
 
 

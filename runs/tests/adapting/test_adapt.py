@@ -1,4 +1,5 @@
-"""slipscale.adapting.adapt with a made-up `slide` whose power falls with the relaxation time, and where it has to fail."""
+"""slipscale.adapting.adapt with a made-up `slide` whose power falls with the relaxation time, and where it has to
+fail."""
 
 import contextlib
 import io
@@ -79,8 +80,8 @@ class Adapt(unittest.TestCase):
         self.assertIn("frequency: ", said)
 
     def test_values_as_small_as_nanoseconds_are_told_apart(self):
-        _, found, _ = self.run_adapt("--parameter", "damping_stiffness", "--start", "2e-9", "--set", "friction_time=1e-6",
-                                     "--points", "3")
+        _, found, _ = self.run_adapt("--parameter", "damping_stiffness", "--start", "2e-9", "--set",
+                                     "friction_time=1e-6", "--points", "3")
         values = [row["damping_stiffness"] for row in found["levels"]["search"]["scan"]]
         self.assertEqual(values, [1e-9, 2e-9, 4e-9])
         self.assertEqual(len((self.folder / "adapted" / "trials" / "calls.txt").read_text().split()), 3)

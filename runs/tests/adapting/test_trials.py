@@ -43,7 +43,8 @@ class Repetitions(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         (self.folder / "mesh with a blank.msh").touch()
-        self.options = {"mesh_file": str(self.folder.resolve() / "mesh with a blank.msh"), "friction_time": 1e-6, "friction_coefficient": 0.5}
+        self.options = {"mesh_file": str(self.folder.resolve() / "mesh with a blank.msh"), "friction_time": 1e-6,
+                        "friction_coefficient": 0.5}
         fake_slide.write({**self.options, "output_folder": str(self.folder / "run")})
         self.spectrum = friction_spectrum(self.folder / "run", WINDOW)
 

@@ -71,7 +71,7 @@ class OfAPoint(Pictures):
         code, said = self.said_by(equivalence_picture.main, "--window", 0, 1e-9, "--homogenised", self.folders[2],
                                   "--composites", *self.folders[:2], "--")
         self.assertEqual(code, 2)
-        self.assertIn("averages need", said)
+        self.assertIn("a spectrum needs 32", said)
 
 
 class OfAMap(Pictures):
@@ -83,8 +83,8 @@ class OfAMap(Pictures):
              "settled": settled, "frequency_composites": 4e5, "frequency_homogenised": 5.25e5, "spectrum_apart": 0.6,
              "spectrum_limit": 0.25}
             for mu, load, block, status, verdict, settled in (
-                (0.3, 5, "5x5", "ok", EQUIVALENT, 1.0), (0.5, 5, "5x5", "ok", COMPETE, 1.5),
-                (0.3, 15, "5x5", "failed", None, None), (0.5, 15, "5x5", "ok", EQUIVALENT, 1.1))])
+                (0.3, 5, "5x5", "ok", EQUIVALENT, True), (0.5, 5, "5x5", "ok", COMPETE, False),
+                (0.3, 15, "5x5", "failed", None, None), (0.5, 15, "5x5", "ok", EQUIVALENT, True))])
 
     def draw(self, over=("coefficient", "load"), **options):
         return equivalence_map.draw(Namespace(table=self.table, over=over, unit=[],

@@ -26,7 +26,8 @@ def spectrum(*lines):
 def run(*lines, amplitude=0.4, shift=0.0, **values):
     angle = np.linspace(0, 40 * np.pi, 4000)
     return Run(spectrum(*lines), np.array([np.cos(angle) + shift, np.sin(angle)]),
-               {**dict.fromkeys(SCALARS, 0.0), "settled": 1.0, "amplitude": amplitude, **values})
+               {**dict.fromkeys(SCALARS, 0.0), "settled": True, "amplitude_ratio": 1.0, "amplitude": amplitude,
+                **values})
 
 
 class Criterion(unittest.TestCase):
@@ -88,18 +89,21 @@ class Verdict(unittest.TestCase):
                 (COMPETE, self.composites, [run((3.5e5, 1.1), (4.6e5, 1.0))]),
                 (COMPETE, [run((3.5e5, 1)), run((4.6e5, 1))], [run((3.5e5, 1))]),
                 (UNLIKE, [run((3.5e5, 1)), run((3.5e5, 1 + 2 * ALIKE))], [run((3.5e5, 1.3))]),
-                (UNSETTLED, self.composites, [run((4.2e5, 1.1), settled=1.3)]),
-                (EQUIVALENT, self.composites, [run((3.5e5, 1.05), settled=1.3)]),
+                (UNSETTLED, self.composites, [run((4.2e5, 1.1), settled=False)]),
+                (UNSETTLED, [still, still], [run(amplitude=1e-4, settled=False)]),  # an instability begins so
+                (EQUIVALENT, self.composites, [run((3.5e5, 1.05), settled=False)]),
                 (ONE_ONLY, self.composites, [still]),
                 (ONE_ONLY, [still, self.composites[0]], [still]),
                 (STABLE, [still, still], [still])):
             self.assertEqual(verdict(composites, homogenised), wanted)
 
     def test_columns(self):
-        row = compared(self.composites, [run((3.5e5, 2.0), settled=1 / 1.2)])
-        self.assertEqual((row["verdict"], row["composites"], row["homogenised"]), (AMPLITUDE, 3, 1))
-        self.assertEqual(row["homogenised_modes"], "350000")
-        self.assertAlmostEqual(row["settled"], 1.2)  # falling or growing
+        row = compared(self.composites, [run((3.5e5, 2.0), amplitude_ratio=1 / 1.2),
+                                         run((3.5e5, 2.0), amplitude_ratio=1.1)])
+        self.assertEqual((row["verdict"], row["composites"], row["homogenised"]), (AMPLITUDE, 3, 2))
+        self.assertEqual(row["homogenised_modes"], "350000; 350000")
+        self.assertIs(row["settled"], True)
+        self.assertAlmostEqual(row["amplitude_ratio"], 1 / 1.2)  # furthest from 1, falling or growing
         self.assertFalse(row["spectrum_within"])
         self.assertTrue(row["frequency_within"])
 

@@ -17,7 +17,8 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(np.sqrt(np.mean(np.square(found))) * np.sqrt(1000), 1, delta=0.06)
 
     def test_of_known_blocks(self):
-        rows = np.repeat(np.arange(10.0), 4)  # means 0 to 9: deviation √(55/6), over √10; of five blocks √10/√5 of 1/2 …
+        # Means 0 to 9: deviation √(55/6), over √10; of five blocks √10/√5 of 1/2 …
+        rows = np.repeat(np.arange(10.0), 4)
         self.assertAlmostEqual(block_error(rows, 10), np.sqrt(55 / 6) / np.sqrt(10))
         self.assertAlmostEqual(error_of_mean(rows), max(np.sqrt(55 / 6) / np.sqrt(10), 2 * np.sqrt(2.5) / np.sqrt(5)))
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import h5py
 
 from slipscale import command
-from slipscale.measuring.comparing import changed_options, difference, distances, read_all
+from slipscale.measuring.comparing import changed_options, difference, differences, distances, read_all
 from slipscale.reading import UnreadableRun
+from slipscale.reports import compare
 from tests import fake_run
 
 
@@ -24,7 +25,7 @@ class Compared(unittest.TestCase):
         with h5py.File(self.folders[2] / "history.h5", "r+") as file:
             file["boundary/top/tangential_force"][:] *= 1.1
         text = (self.folders[2] / "run.yaml").read_text()
-        (self.folders[2] / "run.yaml").write_text(text.replace("friction_coefficient: 0.5", "friction_coefficient: 0.55"))
+        (self.folders[2] / "run.yaml").write_text(text.replace("coefficient: 0.5", "coefficient: 0.55"))
 
     def test_differences_against_scatter(self):
         one, two, rougher = read_all(self.folders)
@@ -38,6 +39,20 @@ class Compared(unittest.TestCase):
         self.assertAlmostEqual(distances(rougher, one)["spectrum"][0], 0.1, delta=1e-9)
         self.assertGreater(distances(rougher, one)["portrait"][1], 0)
         self.assertEqual(changed_options([one, two, rougher]), {"friction_coefficient": [0.5, 0.5, 0.55]})
+
+    def test_rounding_is_no_difference(self):
+        """Blocks that are equal to the last bit have no error, yet sums are known to 1e-10 of what is summed only."""
+        self.assertFalse(difference((2.0, 0.0), (2.0 + 1e-12, 0.0)).differs)
+        self.assertTrue(difference((2.0, 0.0), (2.0 + 1e-8, 0.0)).differs)
+        self.assertLess(difference((2.0, 0.0), (2.1, 1e-14)).value / difference((2.0, 0.0), (2.1, 1e-14)).error, 1e10)
+        self.assertIsNone(difference((2.0, float("nan")), (2.0, 0.0)).differs)
+        one, two = read_all(self.folders[:2])
+        for run, force in ((one, 1e-9), (two, -3e-9)):  # of a normal force of 7.5e4 N/m: no friction at all
+            run.means["tangential_force"] = force, 1e-20
+        self.assertFalse(differences(two, one)["tangential_force"].differs)
+        two.means["slip"], one.means["slip"] = (0.9, 0.0), (1.0, 0.0)
+        self.assertEqual([compare.judged(differences(two, one)[name]) for name in ("tangential_force", "slip")],
+                         ["-4e-09, neither scatters: the same to rounding", "-0.1, neither scatters: differs"])
 
     def test_the_command(self):
         said, picture = io.StringIO(), self.folders[0].parent / "a b.png"

@@ -40,7 +40,8 @@ class Portraits(unittest.TestCase):
         self.assertAlmostEqual(portrait_distance(shifted, self.circle), 2 / np.pi, delta=2e-3)
 
     def test_same_region_visited_otherwise(self):
-        """Every point of each cloud has a neighbour in the other, which a nearest-point distance would take for equal."""
+        """Every point of each cloud has a neighbour in the other, which a nearest-point distance would take for
+        equal."""
         u, v = self.circle
         left = np.concatenate([np.tile(u[u < 3e-6], 9), u]), np.concatenate([np.tile(v[u < 3e-6], 9), v])
         self.assertGreater(portrait_distance(left, self.circle), 0.2)

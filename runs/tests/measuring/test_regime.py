@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from slipscale.measuring.regime import MEASURES, costs, friction_spectrum, measures, regime
+from slipscale.measuring.window import FEWEST_FOR_MEANS
 from slipscale.reading import UnreadableRun
 from tests import fake_run
 
@@ -39,7 +40,8 @@ class Regime(unittest.TestCase):
         self.assertAlmostEqual(found["displacement_deviation"], 0.8e-6 / np.sqrt(2), delta=1e-8)
         self.assertAlmostEqual(found["power_ratio"], 0.1, places=12)
         self.assertAlmostEqual(found["drive_power"], fake_run.FRICTION * fake_run.NORMAL * fake_run.SPEED, delta=500)
-        self.assertAlmostEqual(found["settled"], 1, delta=0.02)
+        self.assertIs(found["settled"], True)
+        self.assertAlmostEqual(found["amplitude_ratio"], 1, delta=0.02)
         self.assertEqual(found["regime"], "stick-slip-separated")
 
     def test_rounding_has_no_frequency(self):
@@ -50,8 +52,36 @@ class Regime(unittest.TestCase):
                 force[...] = 1e-12 * force[...]
             self.assertEqual(measures(folder, WINDOW)["frequency"], 0)
 
-    def test_a_wave_that_still_grows_is_not_settled(self):
-        self.assertGreater(measures(self.folder, (4e-5, 1e-4))["settled"], 1.1)
+    def test_every_mean_has_its_error(self):
+        """Ten blocks of a cosine and of noise: of the noise of friction, .004/√2800; of a share's .05 cos, which ten
+        whole blocks leave little of, less than its deviation over √(periods)."""
+        found = measures(self.folder, WINDOW)
+        self.assertLess(found["friction_error"], 4 * 0.004 / np.sqrt(2800))
+        self.assertGreater(found["friction_error"], 0.25 * 0.004 / np.sqrt(2800))
+        for name, most in (("stick", 0.05 / np.sqrt(50)), ("slip", 0.1 / np.sqrt(50)), ("open", 0.05 / np.sqrt(50)),
+                           ("normal_force", 0.1 * fake_run.NORMAL / np.sqrt(50))):
+            self.assertTrue(0 < found[f"{name}_error"] < most, name)
+        for name in ("power_into_body", "drive_power"):
+            self.assertAlmostEqual(found[f"{name}_error"] / found[name], found["friction_error"] / found["friction"],
+                                   delta=1e-3)
+        self.assertLess(found["power_ratio_error"], 1e-12)  # one is a tenth of the other in every row
+
+    def test_settled_is_the_rule_of_the_summary(self):
+        with tempfile.TemporaryDirectory() as folder:
+            fake_run.write_run(Path(folder))
+            with h5py.File(Path(folder) / "history.h5", "r+") as file:
+                time, force = file["time"][()], file["boundary/top/tangential_force"]
+                force[...] = fake_run.NORMAL * (0.4 + 0.01 * np.exp(time / 1e-4) * np.cos(2e6 * time))
+            found = measures(folder, WINDOW)
+            self.assertIs(found["settled"], False)
+            self.assertAlmostEqual(found["amplitude_ratio"], np.exp(0.7), delta=0.03)  # over half of 140 µs
+
+    def test_few_rows_tell_what_they_can(self):
+        found = measures(self.folder, (3.99e-4, 4.5e-4), fewest=FEWEST_FOR_MEANS)  # 20 rows
+        self.assertAlmostEqual(found["friction"], fake_run.FRICTION, delta=0.05)
+        self.assertIsNone(found["frequency"])
+        self.assertIsNotNone(found["friction_error"])
+        self.assertIsNone(measures(self.folder, (3.9965e-4, 4.5e-4), fewest=FEWEST_FOR_MEANS)["friction_error"])
 
     def test_names_of_regimes(self):
         self.assertEqual([regime(*shares) for shares in ((0, 0), (0.2, 0), (0, 0.2), (0.2, 0.2), (0.001, 0.001))],
@@ -68,7 +98,7 @@ class Regime(unittest.TestCase):
         self.assertAlmostEqual(frequency[np.argmax(amplitude)], fake_run.FREQUENCY, delta=frequency[1])
 
     def test_too_few_rows(self):
-        with self.assertRaisesRegex(UnreadableRun, "let the run end later"):
+        with self.assertRaisesRegex(UnreadableRun, "let the run go on"):
             measures(self.folder, (3.99e-4, 4.5e-4))
 
     def test_costs_of_a_run_that_has_no_summary_yet(self):

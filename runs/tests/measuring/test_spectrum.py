@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from slipscale.measuring.spectrum import dominant_frequency, evenly_spaced, welch
+from slipscale.measuring.spectrum import dominant_frequency, evenly_spaced, strongest_line, welch
 
 RATE, SAMPLES, SEGMENT = 2e7, 4000, 1000  # Hz; bins of 20 kHz
 
@@ -51,9 +51,15 @@ class DominantFrequency(unittest.TestCase):
         signal = sinusoid(3.55e5, 0.5) + sinusoid(7.1e5, 0.4)
         self.assertAlmostEqual(dominant_frequency(*welch(signal, RATE, SEGMENT)), 3.55e5, delta=20)
 
-    def test_passes_over_drift(self):
-        signal = sinusoid(3.55e5, 0.01) + np.linspace(0, 5, SAMPLES)
-        self.assertAlmostEqual(dominant_frequency(*welch(signal, RATE), lowest=2e5), 3.55e5, delta=2e3)
+    def test_what_is_slower_than_the_window_can_tell_does_not_dominate(self):
+        """A line of 2 kHz lasts .4 of a segment; one of .01 beside it is the strongest line, and not what dominates."""
+        slow, line = sinusoid(2e3, 1.0), sinusoid(3.55e5, 0.01)
+        self.assertEqual(dominant_frequency(*welch(slow + line, RATE)), 0)
+        self.assertGreater(dominant_frequency(*welch(0.001 * slow + line, RATE)), 3.5e5)
+        flat = np.where(np.arange(500) == 100, 1.0, 1e-3)
+        flat[1] = 2.0
+        self.assertEqual(strongest_line(np.arange(500.0), flat), 100.0)
+        self.assertEqual(dominant_frequency(np.arange(500.0), flat), 0.0)
 
     def test_peak_in_the_last_bin(self):
         frequency, density = np.arange(10.0), np.arange(10.0)

@@ -18,7 +18,8 @@ STRENGTH = COEFFICIENT * 0.5 * 6e6 * 1.2  # of the wave below, wherever on the s
 
 
 def wave(time):
-    """Pressure, traction and velocity [n, nc] of a wave that runs along the surface, in slip, and of a weak overtone."""
+    """Pressure, traction and velocity [n, nc] of a wave that runs along the surface, in slip, and of a weak
+    overtone."""
     at = OMEGA * time[:, None] - 2 * np.pi * X / 4e-3
     lag, gain = np.arctan(OMEGA * RELAXATION), 1 / np.hypot(1, OMEGA * RELAXATION)
     pressure = 15e6 + 6e6 * np.cos(at)

@@ -5,11 +5,13 @@ import io
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
 
 from slipscale.pictures import relocalized_picture
+from slipscale.pictures.local_history import history_panel
 from slipscale.reading import Fields, UnreadableRun
 from tests import fake_run
 
@@ -109,6 +111,28 @@ class RelocalizedPicture(unittest.TestCase):
         np.testing.assert_allclose(homogeneous.get_ydata(), 0.525 * reference.get_ydata(), rtol=1e-12)
         self.assertEqual([line.get_label() for line in (homogeneous, relocalised)], ["homogeneous", "relocalised"])
         self.assertIn("homogeneous 0.475, relocalised 0.050", panels["(e)"].get_title())
+
+    def test_points_may_be_numbered_anew(self):
+        """As `relocalize` does: the cells are where they were, so it is the same morphology."""
+        self.write()
+        with h5py.File(self.folders[1] / "relocalized.h5", "r+") as file:
+            points = file["mesh/coordinates"][:]
+            order = np.random.default_rng(2).permutation(len(points))
+            file["mesh/cells"][:] = np.argsort(order)[file["mesh/cells"][:]]
+            file["mesh/coordinates"][:] = points[order]
+        figure, panels = self.draw()
+        self.assertNotIn("another morphology", figure._suptitle.get_text())
+        self.assertIn("error 0.050", panels["(b)"].get_title())
+
+    def test_a_history_is_not_held_against_what_was_not_recorded(self):
+        """Nothing is known of the relocalised stress before its first frame: what the run did there does not count."""
+        point = SimpleNamespace(x=np.zeros(2), region="matrix", time=np.array([3.94e-4, 3.97e-4, 4.0e-4]),
+                                stress=np.full((3, 3), 1e6), homogeneous_stress=np.full((3, 3), 1e6))
+        time = np.arange(3.9e-4, 4.00001e-4, 1e-7)
+        stress = np.where(time[:, None] < 3.94e-4 - 1e-9, 9e6, 1e6) * np.ones(3)
+        axes = relocalized_picture.plt.figure().subplots()
+        history_panel(axes, "", point, (time, stress), 1, "s", None)
+        self.assertIn("relocalised 0.000", axes.get_title())
 
     def test_another_morphology_has_no_error(self):
         self.write()

@@ -31,13 +31,15 @@ class Scene(unittest.TestCase):
 
     def test_conditions_in_words(self):
         for conditions, words in (({}, ""), ({"x": "free", "y": "free"}, ""), ({"x": "fixed"}, "$u_x$ held"),
-                                  ({"x": "fixed", "y": -1.5e-6, "ramp": 4e-5}, "$u_x$ held, $u_y$ = −1.5 µm, within 40 µs"),
+                                  ({"x": "fixed", "y": -1.5e-6, "ramp": 4e-5},
+                                   "$u_x$ held, $u_y$ = −1.5 µm, within 40 µs"),
                                   ({"pressure": 15e6, "shear": "2e6"}, "p = 15 MPa, τ = 2 MPa"),
                                   ({"y": "rigid", "force": 40000}, "$u_y$ rigid, force 40000")):
             self.assertEqual(scene.condition_words(conditions), words)
 
     def test_the_longest_name_of_a_curve_counts(self):
-        found = scene.Scene(self.folder / "scene.yaml", changes={"boundary_bottom_x": "fixed", "boundary_bottom_left_x": 1})
+        found = scene.Scene(self.folder / "scene.yaml",
+                            changes={"boundary_bottom_x": "fixed", "boundary_bottom_left_x": 1})
         found.mesh.curves["bottom_left"] = found.mesh.curves["bottom"]
         self.assertEqual(found.conditions("bottom"), {"x": "fixed"})
         self.assertEqual(found.conditions("bottom_left"), {"x": 1})

@@ -33,7 +33,8 @@ def averages(values, scatter=0.0, shared=0.0, **more):
 
 class Distances(unittest.TestCase):
     def test_the_reference_shares_the_error(self):
-        """A reference at half the finest size takes a quarter off an error of second order: its distance is no order."""
+        """A reference at half the finest size takes a quarter off an error of second order: its distance is no
+        order."""
         for order in (1.0, 1.7, 2.0):
             found = refine(distances([0.3 * (h**order - REFERENCE**order) for h in SIZES]), REFERENCE)
             self.assertEqual(found.verdict, CONVERGES)

@@ -59,13 +59,26 @@ class OfARun(unittest.TestCase):
                      "mpirun -n 2 slide -options_file_yaml", "friction_coefficient", "stable_step", "impact loss"):
             self.assertTrue(said in text, said)
         self.assertFalse("had not settled" in text or "misses" in text)
+        cards = dict(re.findall(r'<div class="card"><b>(.*?)</b><span>(.*?)</span>', text))
+        told = {what.split(";")[0]: number for number, what in cards.items()}
+        self.assertEqual(told["settled"], "yes")
+        for share in ("sticks", "slips", "is open"):
+            self.assertRegex(told[f"of the contact {share}"], r"^\d+\.\d+ ± 0\.\d+ %$")
+
+    def test_few_rows_have_cards_too(self):
+        fake_run.write_run(self.folder, end=1e-6)
+        text = self.text()
+        for said in ("not known", "mean tangential over mean normal force", "a spectrum needs 32"):
+            self.assertIn(said, text)
 
     def test_warns(self):
         (self.folder / "summary.yaml").write_text(
-            "notes:\n  note_1: the body never touches the surface\naliases: 1 MHz may be an alias\nenergy:\n  largest_relative_residual: 1e-3\n")
+            "notes:\n  note_1: the body never touches the surface\naliases: 1 MHz may be an alias\n"
+            "energy:\n  largest_relative_residual: 1e-3\n")
         text = self.text()
         self.assertFalse("note_1&#x27;" in text)
-        for said in ("the body never touches the surface", "1 MHz may be an alias", "The energy balance misses 1.0e-03 of what flowed"):
+        for said in ("the body never touches the surface", "1 MHz may be an alias",
+                     "The energy balance misses 1.0e-03 of what flowed"):
             self.assertTrue(said in text, said)
 
     def test_written_where_asked(self):

@@ -86,7 +86,8 @@ class Attempt(unittest.TestCase):
 
     def test_interrupted_itself(self):
         """As by Ctrl-C, which reaches program and attempt."""
-        process = subprocess.Popen([sys.executable, "-m", "slipscale.running.attempt", self.outcome, "--", "sleep", "60"],
+        process = subprocess.Popen([sys.executable, "-m", "slipscale.running.attempt", self.outcome, "--", "sleep",
+                                    "60"],
                                    cwd=RUNS, stderr=subprocess.DEVNULL, start_new_session=True)
         log = self.outcome.parent / "log.txt"
         while not log.exists():

@@ -22,14 +22,16 @@ class Programs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ), mock.patch.object(
                 programs, "PLACES", (Path(folder) / "build", Path(folder) / "bin")):
             os.environ.pop("SLIPSCALE_PROGRAMS", None)
-            self.assertEqual(programs.folder(), Path(folder) / "build")  # that is what a message names when none is there
+            # That is what a message names when none is there.
+            self.assertEqual(programs.folder(), Path(folder) / "build")
             (Path(folder) / "bin").mkdir()
             (Path(folder) / "bin" / "slide").touch()
             self.assertEqual(programs.folder(), Path(folder) / "bin")
 
     def test_commands(self):
         self.assertEqual(programs.words_of(f"'{sys.executable}' -n 2"), [sys.executable, "-n", "2"])
-        for command, words in (("nothing -n 2", "no program nothing"), (f"{sys.executable} -n 2 a/slide", "no program a/slide"),
+        for command, words in (("nothing -n 2", "no program nothing"),
+                               (f"{sys.executable} -n 2 a/slide", "no program a/slide"),
                                ("", "no program is named")):
             with self.assertRaisesRegex(Mistake, words):
                 programs.words_of(command)

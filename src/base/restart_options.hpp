@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slipscale/base/program.hpp"
+
+namespace slipscale {
+
+/// What was in effect in the run that `restart` names, as if written before everything else; its folder is
+/// the one that is named now. Throws UserError. Collective.
+std::vector<Written> options_of_run(const RestartRule& rule, const Written& restart);
+
+/// Throws UserError where an option is written now that may not change and does not say what `before` says.
+void refuse_changes(const std::vector<Written>& before, const std::vector<Written>& now,
+                    const std::vector<std::string>& may_change, const std::string& folder);
+
+}  // namespace slipscale

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "slipscale/solid/repeated_rows.hpp"
+
+namespace slipscale {
+
+/// Makes quartets, and keeps what they share once.
+class Quartets {
+ public:
+  /// `count` nodes are in the arrays.
+  explicit Quartets(int count) : count_(count) {}
+
+  /// Of the nodes from `begin` on, whose terms these are. None where the terms of two of them cannot be added
+  /// in one order: where a neighbour is a ghost, which lies behind whatever its number; nor where one would
+  /// look beyond the arrays for a neighbour that only another has.
+  std::optional<Quartet> make(int begin, const std::array<std::vector<Term>, 4>& terms);
+
+  std::vector<Link> links;
+  std::vector<double> values;
+
+ private:
+  int count_;
+  struct Kept {
+    int first, last;
+    long values;
+  };
+  std::unordered_map<std::uint64_t, Kept> known_;
+};
+
+}  // namespace slipscale
