@@ -71,9 +71,9 @@ class Scene:
         """The option of the schema behind a name as a scene has it."""
         if name in self.schema:
             return self.schema[name]
-        first, _, last = name.partition("_")[0], None, name.rpartition("_")[2]
-        return next(option for key, option in self.schema.items()
-                    if key.startswith(first + "_<") and key.rpartition("_")[2] == last)
+        first, last = name.partition("_")[0], name.rpartition("_")[2]
+        return next(option for key, option in self.schema.items() if key.startswith(first + "_<")
+                    and key.rpartition("_")[2] in (last, "<entry>"))
 
     def put(self, name, value):
         self.used.add(self.entry(name).name)

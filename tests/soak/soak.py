@@ -33,6 +33,7 @@ from scenes import SIDE
 
 RESIDUAL = 1e-9  # of what flowed
 STOPS = ("signal", "kill of all", "kill of one", "earlier end")
+TOO_EARLY = (-10, 138)  # SIGUSR1 before a rank asks for it: the end, and nothing to lose
 EFFECTIVE = "stiffness: [6.1e10, 5.2e10, 1.7e10, 1.9e10, 2.0e9, -1.0e9]\ndensity: 2100\n"
 
 
@@ -173,9 +174,10 @@ class Soak:
             waits = chance.uniform(0, 0.8 * lasts)
             act = None if last or stop == "earlier end" else lambda job: job.stop(stop, waits, chance)
             job = self.slide(options, count, act)
-            allowed = (0,) if act is None else (0, 3) if stop == "signal" else (0, 3, -9, 137, 1)
+            allowed = (0,) if act is None else (0, 3, *TOO_EARLY) if stop == "signal" else (0, -9, 137, 1)
             if job.code not in allowed or (job.code == 0 and job.err):
                 raise Failure(f"{what}, turn {turn + 1}: exit code {job.code}: {said(job.err)}")
+            self.counts["signals before the first step"] += job.code in TOO_EARLY
             there = bool(list((self.folder / "out").glob("checkpoint*.h5")))
             self.counts["runs stopped in the middle" if job.code else "runs that ended before the stop"] += not last
             if there:
