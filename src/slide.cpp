@@ -18,9 +18,10 @@ namespace {
 
 /// What may differ in a run that goes on: how long, how often it records, and what is checked by its content.
 const std::vector<std::string> may_change{
-    "restart",      "time_end",        "time_wall",        "checkpoint_minutes", "checkpoint_every",
-    "progress",     "history_every",   "history_interval", "contact_every",      "contact_interval",
-    "fields_every", "fields_interval", "fields_times",     "mesh_file"};
+    "restart",          "time_end",         "time_wall",        "checkpoint_minutes",
+    "checkpoint_every", "progress",         "history_every",    "history_interval",
+    "contact_every",    "contact_interval", "fields_every",     "fields_interval",
+    "fields_times",     "mesh_file",        "stiffness_kernel", "stiffness_instructions"};
 
 /// The names that options may carry: those of the mesh, and `all` for every region that has no material of
 /// its own.

@@ -30,6 +30,9 @@ JOB = "{SLURM_ARRAY_TASK_ID}/{SLURM_ARRAY_TASK_COUNT}".format_map(
 PYTHON = shlex.quote(sys.executable)
 ATTEMPT = f"{PYTHON} -m slipscale.running.attempt"
 SLIPSCALE = f"{PYTHON} -m slipscale"
+# Of jobs whose run may be longer than their time: where jobs are sent again at all, by the profile of a cluster, these go
+# on in the next one, and the next.
+GOES_ON = 20 if workflow.restart_times else 0
 
 # Unbound: several runs at a time would else all be bound to the same first cores.
 os.environ.update(PYTHONPATH=str(TOP / "runs"), SLIPSCALE_PROGRAMS=str(PROGRAMS), OMP_NUM_THREADS="1",

@@ -45,7 +45,8 @@ rule homogenize:
         ' -mesh_file "$(dirname {input.mesh:q})"/mesh.msh {params.options} -output_folder "$(dirname {output:q})"'
 
 
-# On one rank unless the scene asks for more: a study has runs enough to keep every core busy.
+# On one rank unless the scene asks for more: a study has runs enough to keep every core busy. The only output that is
+# declared is the outcome, so that what a run that was stopped leaves stays, and the next start goes on from there.
 rule slide:
     input:
         unpack(before_slide),
@@ -58,9 +59,12 @@ rule slide:
         mpirun=lambda run: on_ranks(scene_of(run.name).get("ranks", 1)),
         options=slide_options
     threads: lambda run: int(scene_of(run.name).get("ranks", 1))
+    retries: GOES_ON
     resources:
         ranks=lambda run: int(scene_of(run.name).get("ranks", 1)),
-        runtime=minutes
+        runtime=minutes,
+        stops=60  # s before its job's limit, with a checkpoint, from which the next job goes on
     shell:
-        ATTEMPT + " {output:q} --after {params.after} --limit {config[limit]} --set {params.set} --"
+        ATTEMPT + " {output:q} --after {params.after} --limit {config[limit]} --restart {input.program:q}"
+        " --set {params.set} --"
         ' {params.mpirun} {input.program:q} {params.options} -output_folder "$(dirname {output:q})"'

@@ -98,6 +98,9 @@ void Observer::observe_plates(Observation& seen) const {
       reading.velocity[q] = side->velocity()[q];
       reading.momentum[q] = mass[q] * reading.velocity[q];
     }
+    // The sum over ranks makes +0 of -0 where there are several, so one rank adds its zero as well.
+    for (auto* two : {&reading.moved, &reading.velocity, &reading.momentum})
+      for (double& value : *two) value += 0.0;
     static_assert(sizeof(PlateReading) == 6 * sizeof(double));
     MPI_Allreduce(MPI_IN_PLACE, &reading, 6, MPI_DOUBLE, MPI_SUM, body_.comm());
     seen.plates.push_back(reading);

@@ -17,6 +17,8 @@ def sbatch(script):
              f"--ntasks={ranks}", f"--cpus-per-task={max(1, job.get('threads', 1) // ranks)}"]
     for option, resource in (("time", "runtime"), ("mem", "mem_mb")):
         words += [f"--{option}={needs[resource]}"] if resource in needs else []
+    # To the steps of the job, where srun starts the program. Without, the program is told its wall time (going_on.py).
+    words += [f"--signal=USR1@{needs['stops']}"] if needs.get("stops") else []
     return [*words, *(["--exclusive"] if needs.get("exclusive") else []), script]
 
 

@@ -85,7 +85,8 @@ class Trials:
         folder = self.output / name
         options = {**changed(self.options, changes), "contact_every": SELDOM, "output_folder": folder}
         command = [*self.program, *shlex.split(words(options))]
-        outcome = self.outcome(folder, command) or attempt(folder / "outcome.yaml", command, changes)
+        outcome = self.outcome(folder, command) or attempt(folder / "outcome.yaml", command, changes,
+                                                              restart=self.program[-1])
         found = {**changes, "folder": str(folder), "status": outcome["status"], "reason": outcome["reason"]}
         if outcome["status"] == "ok":
             try:
