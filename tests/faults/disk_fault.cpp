@@ -1,11 +1,12 @@
-// What a disk and a system may do to a program, put between it and the C library (LD_PRELOAD), for one process and the
-// files whose path contains FAULT_PATH:
+// What a disk and a system may do to a program, put between it and the C library (LD_PRELOAD), for one
+// process and the files whose path contains FAULT_PATH:
 //
 //   FAULT_PROGRAM  name of the program, FAULT_RANK  of the process (0 by default): in others nothing happens
 //   FAULT_LOG      a file that gets a line for each call that writes, makes, renames or removes such a file
 //   FAULT_KILL_AT  number of the call before which the process is killed (SIGKILL), counted from 1;
 //   FAULT_HALF     where it is a write, after half of it
-//   FAULT_ROOM     bytes by which such files may grow before "No space left on device"; nothing can be reserved
+//   FAULT_ROOM     bytes by which such files may grow before "No space left on device"; nothing can be
+//   reserved
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -68,7 +69,8 @@ bool last(const char* call, const std::string& path, size_t bytes) {
   if (const char* const log = getenv("FAULT_LOG")) {
     NEXT(write);
     static const int file = open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    const std::string line = std::to_string(calls) + " " + call + " " + std::to_string(bytes) + " " + path + "\n";
+    const std::string line =
+        std::to_string(calls) + " " + call + " " + std::to_string(bytes) + " " + path + "\n";
     (void)!real(file, line.data(), line.size());
   }
   return calls == number("FAULT_KILL_AT", -1);
