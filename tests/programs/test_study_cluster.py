@@ -4,32 +4,58 @@ ask for, and how they go on after a job was lost."""
 import json
 import os
 import re
+import shlex
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 import studies
+import yaml
+from running import datasets
 
 PROFILE = studies.RUNS / "profiles" / "slurm"
 
 # Runs a job as Slurm would and prints its number. A job whose words hold what `lost` says is lost without a trace; one
-# that depends on a lost one is not run.
+# that depends on a lost one is not run. In a job that `stopped` names, slide gets SIGUSR1 once it has left a checkpoint.
 SBATCH = r'''#!/usr/bin/python3
-import json, os, subprocess, sys
+import json, os, signal, subprocess, sys, time
 from pathlib import Path
+
+def slides(session):
+    """(number, folder) of each slide of a session."""
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            if os.getsid(int(path.name)) == session and (path / "comm").read_text() == "slide\n":
+                words = (path / "cmdline").read_text().split("\0")
+                yield int(path.name), Path(os.readlink(path / "cwd")) / words[words.index("-output_folder") + 1]
+        except (OSError, ValueError):
+            pass
+
+def run(script, log, words, stop):
+    job = subprocess.Popen(script, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env={**os.environ, **words},
+                           start_new_session=True)
+    while stop and job.poll() is None:
+        for number, folder in slides(job.pid):
+            if stop and (folder / "checkpoint.h5").exists():
+                os.kill(number, signal.SIGUSR1)
+                stop = False
+        time.sleep(0.02)
+    return job.wait()
 
 here = Path(__file__).parent
 options = dict(word[2:].partition("=")[::2] for word in sys.argv[1:] if word.startswith("--"))
 script = options["wrap"] if "wrap" in options else sys.argv[-1]
 number = len(list(here.glob("job-*.json"))) + 1
-lost = (here / "lost").read_text().split() if (here / "lost").exists() else []
+lost, stopped = ((here / name).read_text().split() if (here / name).exists() else [] for name in ("lost", "stopped"))
 states = []
 before = [here / f"job-{word}.json" for word in options.get("dependency", "").split(":")[1:]]
 never = any(json.loads(path.read_text())["state"] != "COMPLETED" for path in before)
 first, last = map(int, options.get("array", "1-1").split("-"))
 for task in range(first, last + 1):
-    words = {"SLURM_NTASKS": options["ntasks"]} if "ntasks" in options else {}
+    words = {"SLURM_JOB_ID": str(number), "SLURM_JOB_END_TIME": str(int(time.time()) + 60 * int(options["time"]))}
+    if "ntasks" in options:
+        words["SLURM_NTASKS"] = options["ntasks"]
     if "array" in options:
         words.update(SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT=str(last))
     name = f"{options['job-name']}{task if 'array' in options else ''}"
@@ -38,10 +64,11 @@ for task in range(first, last + 1):
         lost = [other for other in lost if other != name]
     else:
         with (here / f"job-{number}-{task}.log").open("w") as log:
-            done = subprocess.run(["sh", "-c", script] if "wrap" in options else ["sh", script], stdout=log, stderr=log,
-                                  stdin=subprocess.DEVNULL, env={**os.environ, **words})
-        states.append("FAILED" if done.returncode else "COMPLETED")
+            code = run(["sh", "-c", script] if "wrap" in options else ["sh", script], log, words, name in stopped)
+        stopped = [other for other in stopped if other != name]
+        states.append("FAILED" if code else "COMPLETED")
 (here / "lost").write_text(" ".join(lost))
+(here / "stopped").write_text(" ".join(stopped))
 state = next((state for state in states if state != "COMPLETED"), "COMPLETED")
 (here / f"job-{number}.json").write_text(json.dumps({"options": options, "state": state, "script": script}))
 print(number)
@@ -53,6 +80,10 @@ file=$(dirname "$0")/job-$3.json
 sed 's/.*"state": "\([A-Z_]*\)".*/   JobState=\1 Reason=None/' "$file"
 '''
 
+# 100 000 steps of a small block, in which there is time for a signal.
+LONG = {"scene": {"time": {"end": 50e-6, "step": 0.5e-9}, "history": {"every": 100}, "contact": {"every": 5000},
+                  "fields": {"every": 20000}, "statistics": {"from": 10e-6}, "checkpoint": {"every": 5000}},
+        "sweep": {"friction_coefficient": [0.2, 0.5], "surface_speed": 2, "size": 1e-3}}
 SWEEP = {"friction_coefficient": [0.1, 0.2, -0.5], "surface_speed": 2, "size": 1e-3}
 
 
@@ -74,7 +105,7 @@ class Cluster(studies.StudyCase):
         return {**kept, "CI": "true", "HOME": str(self.folder), "PATH": f"{self.slurm}:{os.environ['PATH']}"}
 
     def config(self, **changes):
-        self.command(sweep=SWEEP, scene={"time": {"end": 40e-6}, "history": {"every": 2}}, **changes)
+        self.command(**{"sweep": SWEEP, "scene": {"time": {"end": 40e-6}, "history": {"every": 2}}, **changes})
         return ["--directory", self.folder, "--configfile", self.folder / "config.yaml"]
 
     def start(self, *words):
@@ -129,6 +160,64 @@ class Cluster(studies.StudyCase):
         self.assertEqual(self.run_again(before), {"run/friction_coefficient_0.2-surface_speed_2-size_0.001"})
         self.assertEqual(self.statuses(), ["ok", "ok", "failed"])
         self.assertTrue((self.out / "report.md").exists())
+
+    def check_went_on(self, run, starts):
+        """That a run started so often and left what one that nobody stopped leaves."""
+        found = self.out / "run" / run
+        log = (found / "log.txt").read_text()
+        self.assertEqual(log.count("interrupted by SIGUSR1"), starts - 1, log[-3000:])
+        self.assertEqual(log.count("steps to"), starts, log[-3000:])
+        self.assertFalse((found / "begun.yaml").exists())
+        words = shlex.split(yaml.safe_load((found / "outcome.yaml").read_text())["command"])
+        self.assertEqual(words[-2], "-output_folder")
+        self.assertNotIn("-restart", words)
+        done = self.start(*words[:-1], self.folder / "whole")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for file in ("history.h5", "contact.h5", "fields.h5", "statistics.h5"):
+            one, other = datasets(found / file), datasets(self.folder / "whole" / file)
+            self.assertEqual(one.keys(), other.keys())
+            for name, values in one.items():
+                self.assertEqual(values.tobytes(), other[name].tobytes(), f"{file}: {name}")
+
+    def test_a_run_longer_than_its_job_goes_on_in_the_next(self):
+        run = "friction_coefficient_0.5-surface_speed_2-size_0.001"
+        (self.slurm / "stopped").write_text(f"slide-{run}")
+        done = self.start("snakemake", "--profile", PROFILE, "--latency-wait", 1, "--set-resources", "slide:runtime=60",
+                          "--snakefile", self.snakefile, *self.config(**LONG))
+        self.assertEqual(done.returncode, 0, done.stdout + self.logs())
+        self.assertEqual([job["state"] for job in self.jobs(f"slide-{run}")], ["FAILED", "COMPLETED"])
+        asked = self.jobs("slide")[0]["options"]
+        self.assertEqual((asked["time"], asked["signal"]), ("60", "USR1@60"))
+        self.assertNotIn("signal", self.jobs("mesh")[0]["options"])
+        self.assertEqual(self.statuses(), ["ok", "ok"])
+        self.check_went_on(run, starts=2)
+
+    def test_an_array_goes_on_with_the_same_command(self):
+        run = "friction_coefficient_0.5-surface_speed_2-size_0.001"  # of the second task
+        array = (PROFILE / "array.sh", 2, self.snakefile, *self.config(**LONG))
+        for _ in range(2):
+            (self.slurm / "stopped").write_text("sweep-runs2")
+            done = self.start(*array)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual([job["state"] for job in self.jobs("sweep-")[-3:]], ["COMPLETED", "FAILED", "CANCELLED"],
+                             self.logs())
+            self.assertTrue((self.out / "run" / run / "begun.yaml").exists())
+        before = self.written()
+        self.start(*array)
+        self.assertEqual([job["state"] for job in self.jobs("sweep-")[-3:]], ["COMPLETED"] * 3, self.logs())
+        self.assertEqual(self.run_again(before), {f"run/{run}"})
+        self.check_went_on(run, starts=3)
+
+    def test_a_scene_that_changed_since_starts_anew(self):
+        run = "friction_coefficient_0.5-surface_speed_2-size_0.001"
+        (self.slurm / "stopped").write_text("sweep-runs2")
+        self.start(PROFILE / "array.sh", 2, self.snakefile, *self.config(**LONG))
+        self.assertTrue((self.out / "run" / run / "begun.yaml").exists())
+        changed = {**LONG, "scene": {**LONG["scene"], "damping": {"stiffness": 3e-9}}}
+        self.start(PROFILE / "array.sh", 2, self.snakefile, *self.config(**changed))
+        self.assertEqual(self.statuses(), ["ok", "ok"])
+        self.assertIn("stiffness: 3e-09", (self.out / "run" / run / "run.yaml").read_text().replace("3.0e-09", "3e-09")
+                      .replace("damping_stiffness", "stiffness"))
 
     def test_an_array_too_small_for_the_ranks_of_a_run(self):
         self.start(PROFILE / "array.sh", 2, self.snakefile, *self.config(ranks=2))
