@@ -110,3 +110,7 @@ class Begun:
                 self.note(used())
             raise
         return reason
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.running.going_on is a library, no command: slipscale -h lists the commands.")
