@@ -9,8 +9,8 @@
 namespace slipscale {
 namespace {
 
-constexpr int bits = 53;               ///< of a double
-constexpr int largest_exponent = 900;  ///< terms beyond it have no room for the cuts
+constexpr int bits = 53;                ///< of a double
+constexpr int largest_exponent = 1022;  ///< of a cut
 
 /// Terms that are taken side by side: the vector type of GCC and Clang.
 using Side = double __attribute__((vector_size(32)));
@@ -32,9 +32,20 @@ void for_sides(std::span<const double> terms, Action&& action) {
   }
 }
 
+/// By how many bits a sum of so many terms may be larger than the largest of them, and one more.
+int room_for(std::int64_t count) {
+  return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count))) + 1;
+}
+
+/// Whether the cuts are finite.
+bool can_be_cut(double largest, std::int64_t count) {
+  return std::isfinite(largest) &&
+         (largest == 0 || std::ilogb(largest) + 1 + room_for(count) <= largest_exponent);
+}
+
 /// Adding and taking away these numbers rounds a term to a multiple of their last bit.
 CutSum cuts(double largest, std::int64_t count) {
-  const int room = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count))) + 1;
+  const int room = room_for(count);
   int size = std::ilogb(largest) + 1;  // no term reaches 2^size
   CutSum cut{};
   for (double& each : cut) {
@@ -92,7 +103,7 @@ std::vector<double> order_free_sums(MPI_Comm comm, const std::vector<std::span<c
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), static_cast<int>(largest.size()), MPI_DOUBLE, MPI_MAX, comm);
   std::vector<CutSum> parts(lists.size());
   for (std::size_t k = 0; k < lists.size(); ++k)
-    if (largest[k] < std::ldexp(1.0, largest_exponent)) parts[k] = cut_sum(lists[k], largest[k], count);
+    if (can_be_cut(largest[k], count)) parts[k] = cut_sum(lists[k], largest[k], count);
   MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(3 * parts.size()), MPI_DOUBLE, MPI_SUM, comm);
   std::vector<double> sums;
   for (std::size_t k = 0; k < lists.size(); ++k)

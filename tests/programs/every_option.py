@@ -69,6 +69,10 @@ def differs(least, most):
 
 
 # The numbers: functions of a run (see test_every_option.py).
+def has(file):
+    return lambda run: int(file in run.files)
+
+
 def last(name):
     return lambda run: run.history[name][-1]
 
@@ -188,6 +192,8 @@ ROWS = {
     "time_beta2": Row([Answer({"OPTION": 0.8}, last("energy/scheme_dissipation"), more)], ALWAYS),
     "stiffness_storage": Row([Answer({"OPTION": "single"}, lambda run: run.history["points/0/u"],
                                      differs(1e-12, 1e-5))], ALWAYS),
+    "stiffness_kernel": Row([Answer({"OPTION": "pairs"}, lambda run: run.history["points/0/u"], same)], ALWAYS),
+    "stiffness_instructions": Row([Answer({"OPTION": "base"}, lambda run: run.history["points/0/u"], same)], ALWAYS),
 
     "boundary_<boundary>_x": Row([Answer({"OPTION": "free"}, TOP_X, more),
                                   Answer({"OPTION": 1e-7}, TOP_X, becomes(1e-7))], ALWAYS),
@@ -287,6 +293,11 @@ ROWS = {
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/summary.yaml" in run.files), more)],
                          ALWAYS),
     # For people in front of a terminal: test_progress_is_for_terminals.
+    # A run of 200 steps leaves one at its end.
+    "checkpoint_every": Row([Answer({"OPTION": 50}, has("checkpoint_older.h5"), more)], ALWAYS),
+    "checkpoint_minutes": Row([Answer({"OPTION": 0}, has("checkpoint.h5"), less)], ALWAYS),
+    "time_wall": Row([Answer({"OPTION": 60}, DRAG, same)], ALWAYS),  # what it does: test_restart.py
+
     "progress": Row([Answer({"OPTION": "none"}, DRAG, same)], ALWAYS),
     # A place for information; the only option that promises to do nothing.
     "run_<entry>": Row([Answer({"run_note": "mine"}, DRAG, same)], ALWAYS),

@@ -23,7 +23,8 @@ double largest_size(std::span<const double> terms);
 /// number.
 CutSum cut_sum(std::span<const double> terms, double largest, std::int64_t count);
 
-/// The sum of each list over all ranks, the same on all of them; NaN where a term is not finite. `count`: not
+/// The sum of each list over all ranks, the same on all of them; NaN where a term is not finite, or so large
+/// that a sum of as many could not be. `count`: not
 /// less than the number of terms of any list on all ranks together, the same on any number of ranks.
 /// Collective.
 std::vector<double> order_free_sums(MPI_Comm comm, const std::vector<std::span<const double>>& lists,
