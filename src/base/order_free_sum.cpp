@@ -107,8 +107,8 @@ std::vector<double> order_free_sums(MPI_Comm comm, const std::vector<std::span<c
   MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(3 * parts.size()), MPI_DOUBLE, MPI_SUM, comm);
   std::vector<double> sums;
   for (std::size_t k = 0; k < lists.size(); ++k)
-    sums.push_back(largest[k] < std::ldexp(1.0, largest_exponent) ? parts[k][0] + (parts[k][1] + parts[k][2])
-                                                                  : std::numeric_limits<double>::quiet_NaN());
+    sums.push_back(can_be_cut(largest[k], count) ? parts[k][0] + (parts[k][1] + parts[k][2])
+                                                 : std::numeric_limits<double>::quiet_NaN());
   return sums;
 }
 
