@@ -243,9 +243,10 @@ SlidingBody::BulkTerms SlidingBody::bulk_terms() const {
              strain = all.subspan(2 * moving, owned), work = all.subspan(2 * moving + owned);
   for (std::size_t i = 0; i < owned; ++i) {
     const Vector2 &v = v_.data()[i], &a = a_.data()[i], &u = kept_[i], &force = force_[i];
-    const double m = model_.mass[i];
-    velocity[i] = 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
-    acceleration[i] = correction * m * (a[0] * a[0] + a[1] * a[1]);
+    // In this order: a square alone may be beyond all numbers where the energy is not.
+    const double half = 0.5 * model_.mass[i], part = correction * model_.mass[i];
+    velocity[i] = half * v[0] * v[0] + half * v[1] * v[1];
+    acceleration[i] = part * a[0] * a[0] + part * a[1] * a[1];
     strain[i] = 0.5 * (u[0] * force[0] + u[1] * force[1]);
   }
   for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), kept_[i]);
