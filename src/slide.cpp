@@ -17,11 +17,25 @@ using namespace slipscale;
 namespace {
 
 /// What may differ in a run that goes on: how long, how often it records, and what is checked by its content.
-const std::vector<std::string> may_change{
-    "restart",          "time_end",         "time_wall",        "checkpoint_minutes",
-    "checkpoint_every", "progress",         "history_every",    "history_interval",
-    "contact_every",    "contact_interval", "fields_every",     "fields_interval",
-    "fields_times",     "mesh_file",        "stiffness_kernel", "stiffness_instructions"};
+const std::vector<std::string> may_change{"restart",
+                                          "time_end",
+                                          "time_wall",
+                                          "checkpoint_minutes",
+                                          "checkpoint_every",
+                                          "progress",
+                                          "history_every",
+                                          "history_interval",
+                                          "contact_every",
+                                          "contact_interval",
+                                          "fields_every",
+                                          "fields_interval",
+                                          "fields_times",
+                                          "mesh_file",
+                                          "mesh_partitioner",
+                                          "material_file",
+                                          "material_*_file",
+                                          "stiffness_kernel",
+                                          "stiffness_instructions"};
 
 /// The names that options may carry: those of the mesh, and `all` for every region that has no material of
 /// its own.
@@ -57,6 +71,7 @@ std::unique_ptr<Restart> find_restart(MPI_Comm comm, const std::optional<std::st
 
 bool is_finished(const Restart& restart, const TimeStep& step) {
   const bool finished = restart.steps_done() > step.count;
+  if (finished) restart.expect_files();
   if (finished)
     print(format("the run in '{}' is finished (t = {:g} s); a later -time_end would make it longer\n",
                  restart.folder(), static_cast<double>(step.count) * step.step));
@@ -65,6 +80,7 @@ bool is_finished(const Restart& restart, const TimeStep& step) {
 
 void slide(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
+  const StopRequest request;  // what comes during set-up ends the run after its first step
   auto set_up = std::make_unique<LogStage>("Set-up");
 
   const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
@@ -97,7 +113,8 @@ void slide(Options& options) {
   print_notes(remarks_at_start(body));
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
-  Checkpoints checkpoints(body, recorder, scene_marks(options, mesh, materials), record.checkpoint);
+  Checkpoints checkpoints(body, recorder, request, scene_marks(options, mesh, materials, recorder.run()),
+                          record.checkpoint);
   print(recorder.forecast() + checkpoints.forecast());
   set_up.reset();
 

@@ -92,7 +92,7 @@ std::vector<Written> read_all(const Program& program, const CommandLine& line) {
   const std::vector<Written> before = options_of_run(*program.restart, *restart);
   std::vector<Written> own = options;
   std::erase_if(own, [&](const Written& option) { return is_petsc(program, option.name); });
-  refuse_changes(before, own, program.restart->may_change, *restart->value);
+  refuse_changes(before, own, *program.restart, program.schema, *restart->value);
   options.insert(options.begin(), before.begin(), before.end());
   return options;
 }

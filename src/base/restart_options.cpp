@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 
+#include "names.hpp"
 #include "scene_file.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
@@ -14,17 +17,57 @@ namespace {
 
 constexpr int first = 1;  ///< before scenes and command line
 
-/// Equal texts, or texts of equal numbers.
-bool same(const std::string& one, const std::string& other) {
-  if (one == other) return true;
-  char *end = nullptr, *other_end = nullptr;
-  const double number = std::strtod(one.c_str(), &end), other_number = std::strtod(other.c_str(), &other_end);
-  return !one.empty() && !other.empty() && *end == '\0' && *other_end == '\0' && number == other_number;
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words(1);
+  for (const char letter : list) {
+    if (letter == ',')
+      words.emplace_back();
+    else if (letter != ' ')
+      words.back() += letter;
+  }
+  return words;
 }
 
+/// One word, or what it means where it is a flag.
+std::string meaning(const std::string& word) {
+  const std::string folded = spelling::fold(word);
+  if (folded == "yes" || folded == "on" || folded == "true") return "1";
+  if (folded == "no" || folded == "off" || folded == "false") return "0";
+  return word;
+}
+
+bool same_word(const std::string& one, const std::string& other) {
+  const std::string left = meaning(one), right = meaning(other);
+  if (left == right) return true;
+  char *end = nullptr, *other_end = nullptr;
+  const double number = std::strtod(left.c_str(), &end),
+               other_number = std::strtod(right.c_str(), &other_end);
+  return !left.empty() && !right.empty() && *end == '\0' && *other_end == '\0' && number == other_number;
+}
+
+/// Equal lists of words, numbers and flags, however they are written.
+bool same(const std::string& one, const std::string& other) {
+  return std::ranges::equal(words_of(one), words_of(other), same_word);
+}
+
+bool same_folder(const std::string& one, const std::string& other) {
+  std::error_code none;
+  return std::filesystem::equivalent(one, other, none);
+}
+
+/// `material_*_file` stands for all of its kind.
 bool among(const std::string& name, const std::vector<std::string>& names) {
   return std::ranges::any_of(names, [&](const std::string& each) {
-    return each.ends_with('*') ? name.starts_with(each.substr(0, each.size() - 1)) : name == each;
+    const std::size_t star = each.find('*');
+    if (star == std::string::npos) return name == each;
+    return name.size() >= each.size() && name.starts_with(each.substr(0, star)) &&
+           name.ends_with(each.substr(star + 1));
+  });
+}
+
+bool declared(const std::string& name, const Schema& schema) {
+  return std::ranges::any_of(schema, [&](const Option& option) {
+    return names::filling(names::pattern(option.name), name).has_value();
   });
 }
 
@@ -51,14 +94,16 @@ std::vector<Written> options_of_run(const RestartRule& rule, const Written& rest
 }
 
 void refuse_changes(const std::vector<Written>& before, const std::vector<Written>& now,
-                    const std::vector<std::string>& may_change, const std::string& folder) {
-  for (const Written& option : now) {
-    const std::string name = spelling::fold(option.name);
-    if (among(name, may_change)) continue;
+                    const RestartRule& rule, const Schema& schema, const std::string& folder) {
+  std::map<std::string, const Written*> last;  // the last word of each name counts
+  for (const Written& option : now) last[spelling::fold(option.name)] = &option;
+  for (const auto& [name, option] : last) {
+    if (among(name, rule.may_change) || !declared(name, schema)) continue;
     const auto had = std::ranges::find(before, name, [](const Written& o) { return spelling::fold(o.name); });
-    const std::string value = option.value.value_or("");
+    const std::string value = option->value.value_or("");
     if (had != before.end() && same(value, had->value.value_or(""))) continue;
-    throw UserError("-" + option.name + " is " + (value.empty() ? "given" : value) + ", but the run in '" +
+    if (name == "output_folder" && same_folder(value, folder)) continue;
+    throw UserError("-" + option->name + " is " + (value.empty() ? "given" : value) + ", but the run in '" +
                     folder + "' has " + (had == before.end() ? "none" : had->value.value_or("none")) +
                     ", and a run goes on as it began; leave it out, or start a new run");
   }

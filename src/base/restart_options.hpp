@@ -11,8 +11,9 @@ namespace slipscale {
 /// the one that is named now. Throws UserError. Collective.
 std::vector<Written> options_of_run(const RestartRule& rule, const Written& restart);
 
-/// Throws UserError where an option is written now that may not change and does not say what `before` says.
+/// Throws UserError where an option is written now that may not change and does not say what `before` says;
+/// names that `schema` does not know are left to others.
 void refuse_changes(const std::vector<Written>& before, const std::vector<Written>& now,
-                    const std::vector<std::string>& may_change, const std::string& folder);
+                    const RestartRule& rule, const Schema& schema, const std::string& folder);
 
 }  // namespace slipscale

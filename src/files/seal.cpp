@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "slipscale/base/checksum.hpp"
@@ -49,6 +50,8 @@ void seal(const std::string& path) {
 }
 
 bool is_sealed(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
   const OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) return false;
   const long bytes = size_of(file.get()) - static_cast<long>(seal_bytes);

@@ -73,11 +73,12 @@ void on_root(MPI_Comm comm, const std::string& path, Action&& action) {
 
 }  // namespace
 
-SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials) {
+SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials,
+                       const std::string& run) {
   auto effective = options.effective();
-  effective.erase("restart");
+  for (const char* of_the_job : {"restart", "time_wall", "progress"}) effective.erase(of_the_job);
   return {run_yaml(effective, [](Yaml& yaml) { yaml.text("program", "slide"); }),
-          checksum_text(mesh.checksum), materials_checksum(materials)};
+          checksum_text(mesh.checksum), materials_checksum(materials), run};
 }
 
 void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks& marks,
@@ -90,6 +91,7 @@ void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks
       write_attribute(root, "options", marks.options);
       write_attribute(root, "mesh_checksum", marks.mesh);
       write_attribute(root, "materials_checksum", marks.materials);
+      write_attribute(root, "run", marks.run);
     });
     write_state(comm, file, groups);
     file.finish();
@@ -115,12 +117,26 @@ Restart::Restart(MPI_Comm comm, const std::string& folder) : comm_(comm), folder
     file_ = open_file(path_);
     mesh_ = read_text(file_, "mesh_checksum");
     materials_ = read_text(file_, "materials_checksum");
+    run_ = read_text(file_, "run");
   });
-  for (std::string* text : {&path_, &note_, &mesh_, &materials_}) *text = text_on_all(std::move(*text));
+  for (std::string* text : {&path_, &note_, &mesh_, &materials_, &run_})
+    *text = text_on_all(std::move(*text));
   double carried[5] = {};
   StateGroup body{"body", {0}, 0, is_root(comm), {{"carried", "", "", 5, carried}}};
   read({position_.state(is_root(comm)), body});
   steps_done_ = static_cast<long>(carried[0]);
+}
+
+void Restart::expect_files() const {
+  on_root(comm_, folder_, [&] {
+    std::vector<std::string> expected{"history.h5", "summary.yaml"};
+    if (position_.contact_rows > 0) expected.push_back("contact.h5");
+    if (position_.frames > 0) expected.push_back("fields.h5");
+    for (const std::string& file : expected)
+      if (!fs::exists(fs::path(folder_) / file))
+        throw UserError("-restart: the run in '" + folder_ + "' was finished, but its " + file +
+                        " is gone; start the run anew");
+  });
 }
 
 void Restart::check(const Mesh& mesh, const std::vector<Material>& materials) const {

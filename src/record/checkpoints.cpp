@@ -17,13 +17,14 @@ constexpr double wall_reserve = 2;     // s, for closing the files
 
 }  // namespace
 
-Checkpoints::Checkpoints(SlidingBody& body, Recorder& recorder, SceneMarks marks,
+Checkpoints::Checkpoints(SlidingBody& body, Recorder& recorder, const StopRequest& request, SceneMarks marks,
                          const CheckpointChoice& choice)
     : body_(body),
       recorder_(recorder),
       marks_(std::move(marks)),
       choice_(choice),
-      next_look_(body.steps_done() + 1),
+      request_(request),
+      next_look_(body.steps_done()),
       first_(body.steps_done()),
       begun_(seconds_since_start()),
       written_at_(begun_) {}
@@ -88,7 +89,7 @@ void Checkpoints::interrupt(long n, const std::string& why) {
 }
 
 void Checkpoints::finish(long n) {
-  if (choice_.wanted()) write(n, false);
+  if (choice_.wanted() || first_ > 0) write(n, false);  // one that a restart began from would be out of date
 }
 
 }  // namespace slipscale

@@ -89,6 +89,12 @@ FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder
 
 FieldsFile::~FieldsFile() = default;
 
+void FieldsFile::about(const std::string& name, const std::string& text) {
+  if (to_cut_) return file_->examine([&](hid_t file) { expect_text(file, name, text); });
+  file_->describe("/", [&](hid_t root) { write_attribute(root, name, text); });
+  file_->flush();
+}
+
 /// Refuses a file that lacks frames, or whose frames do not hold what this one would write.
 void FieldsFile::check_frames(std::size_t frames) const {
   file_->examine([&](hid_t file) {

@@ -1,5 +1,7 @@
 #include "slipscale/record/recorder.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,8 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/base/provenance.hpp"
+#include "slipscale/base/yaml_text.hpp"
 #include "slipscale/files/disk_space.hpp"
 #include "slipscale/record/stress_measures.hpp"
 #include "slipscale/solid/stress.hpp"
@@ -90,6 +94,12 @@ bool records_force(const RunPosition& before, long history_every) {
          (before.history_every == 0 || before.history_every == static_cast<double>(history_every));
 }
 
+/// Start, process and a clock's last digits. Collective.
+std::string new_run() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return text_on_all(format("{} {} {}", provenance().date, getpid(), now.count() % 1000000000));
+}
+
 std::vector<std::string> files_of_a_run() {
   return {"run.yaml",  "summary.yaml", "history.h5",        "contact.h5",
           "fields.h5", "fields.xdmf",  "statistics.h5",     "statistics.xdmf",
@@ -110,6 +120,7 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
                    const Restart* restart)
     : body_(body),
       choice_(checked(body, choice)),
+      run_(restart ? restart->run() : new_run()),
       position_(restart ? restart->position() : RunPosition{}),
       time_(time),
       last_(time.count),
@@ -156,8 +167,13 @@ void Recorder::open_files(const Restart* restart) {
                                                continued(position_.contact_rows));
   }
   const std::string checksum = checksum_text(mesh.checksum);
-  if (history_) history_->series().about("mesh_checksum", checksum);
-  if (contact_) contact_->series().about("mesh_checksum", checksum);
+  if (fields_) fields_->about("run", run_);
+  for (SeriesFile* series :
+       {history_ ? &history_->series() : nullptr, contact_ ? &contact_->series() : nullptr})
+    if (series) {
+      series->about("mesh_checksum", checksum);
+      series->about("run", run_);
+    }
 }
 
 /// What the steps before the restart left, from the checkpoint and from the rows of history.h5.

@@ -185,13 +185,17 @@ class Refusals(InBlock):
             ("-damping_mass", "3"): ("-damping_mass is 3", "'out' has 0"),
             ("-boundary_left_x", "fixed"): ("-boundary_left_x is fixed", "'out' has none"),
             ("-output_folder", "elsewhere"): ("-output_folder is elsewhere", "has out"),
+            ("-nonsense", "3"): ("-nonsense is not an option of slide",),
             ("-time_end", "5e-7"): ("-time_end is 5e-07 s", "can only go further"),
         }.items():
             with self.subTest(arguments):
                 self.refused(*words, arguments=arguments)
         (self.folder / "more.yaml").write_text("friction: {coefficient: 0.4}\n")
         self.refused("-friction_coefficient is 0.4", arguments=("-options_file_yaml", "more.yaml"), ranks=2)
-        outcome = self.slide("-restart", "out", "-friction_coefficient", "5e-1", "-time_end", "1.2e-6")
+        # What is the same in other words is no change, and the command line has the last word.
+        outcome = self.slide("-restart", "out", "-options_file_yaml", "more.yaml", "-friction_coefficient", "5e-1",
+                             "-history_points", "2.50e-3,0.0,1.3e-3,2.2e-3", "-output_folder", "./out/",
+                             "-history_momentum", "no", "-time_end", "1.2e-6")
         self.assertEqual((outcome.codes, outcome.err), ([0], ""))
 
     def test_of_another_mesh(self):
@@ -224,6 +228,20 @@ class Refusals(InBlock):
         for path in (newer, older):
             path.write_bytes(path.read_bytes()[:-7])
         self.refused("the checkpoints in 'out' are damaged", arguments=("-time_end", "2e-6"), ranks=2)
+
+    def test_of_files_of_another_run(self):
+        """Of the same mesh and the same length, so that only the run tells them apart."""
+        self.run_scene(SHORT, time_end=1e-6, friction_coefficient=0.4, output_folder="other", fields_every=100)
+        self.run_scene(SHORT, time_end=1e-6, output_folder="out", fields_every=100)
+        for file in ("history.h5", "contact.h5", "fields.h5"):
+            with self.subTest(file):
+                shutil.copytree(self.folder / "out", self.folder / "kept")
+                shutil.copy(self.folder / "other" / file, self.folder / "out" / file)
+                self.refused(file, "run", arguments=("-time_end", "2e-6"), ranks=2)
+                shutil.rmtree(self.folder / "out")
+                (self.folder / "kept").rename(self.folder / "out")
+        (self.folder / "out" / "contact.h5").unlink()
+        self.refused("was finished, but its contact.h5 is gone")
 
     def test_of_files_that_are_not_what_they_were(self):
         for file, spoil in {

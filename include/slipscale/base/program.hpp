@@ -14,7 +14,8 @@ struct RestartRule {
   /// The options that were in effect, as a YAML text, from what the run left in its folder. Throws UserError.
   /// On rank 0 alone.
   std::function<std::string(const std::string& folder)> scene;
-  std::vector<std::string> may_change;  ///< options that may differ from there on; "fields_*" stands for all
+  std::vector<std::string>
+      may_change;  ///< options that may differ from there on; `material_*_file` stands for all of its kind
 };
 
 /// What every executable of slipscale is made of.

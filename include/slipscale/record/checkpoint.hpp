@@ -23,8 +23,10 @@ inline constexpr const char* checkpoint_names[] = {"checkpoint.h5", "checkpoint_
 struct SceneMarks {
   std::string options;          ///< in effect, as YAML
   std::string mesh, materials;  ///< checksums
+  std::string run;              ///< see Recorder::run
 };
-SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials);
+SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials,
+                       const std::string& run);
 
 /// Writes a checkpoint under a name of its own, seals and syncs it, and only then gives it the place of the
 /// newest. RunError on all ranks when it cannot; the one that was there stays. `sync`: wait for the disk.
@@ -43,6 +45,9 @@ class Restart {
   const RunPosition& position() const { return position_; }
   const std::string& folder() const { return folder_; }
   long steps_done() const { return steps_done_; }  ///< by the body
+  const std::string& run() const { return run_; }  ///< see Recorder::run
+  /// Whether the files that such a run leaves are there. Collective.
+  void expect_files() const;
 
   /// Throws UserError when mesh or materials are not those of the run.
   void check(const Mesh& mesh, const std::vector<Material>& materials) const;
@@ -53,7 +58,7 @@ class Restart {
 
  private:
   MPI_Comm comm_;
-  std::string folder_, path_, note_, mesh_, materials_;
+  std::string folder_, path_, note_, mesh_, materials_, run_;
   Hdf5File file_;  ///< on rank 0
   RunPosition position_;
   long steps_done_ = 0;

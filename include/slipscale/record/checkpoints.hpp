@@ -15,7 +15,8 @@ namespace slipscale {
 /// a tenth of a second apart, which rank 0's clock chooses and hands out at the look before.
 class Checkpoints {
  public:
-  Checkpoints(SlidingBody& body, Recorder& recorder, SceneMarks marks, const CheckpointChoice& choice);
+  Checkpoints(SlidingBody& body, Recorder& recorder, const StopRequest& request, SceneMarks marks,
+              const CheckpointChoice& choice);
 
   /// What it will take, for the user to see. Collective.
   std::string forecast();
@@ -37,7 +38,7 @@ class Checkpoints {
   Recorder& recorder_;
   const SceneMarks marks_;
   const CheckpointChoice choice_;
-  const StopRequest request_;
+  const StopRequest& request_;
   long next_look_, first_;
   double begun_, written_at_;  ///< s since the program began
   double longest_write_ = 0;   ///< s

@@ -59,6 +59,10 @@ class FieldsFile {
 
   std::size_t frames() const;  ///< so far
 
+  /// A text about the file, an attribute of its root group; what is continued must have it. Throws as the
+  /// constructor. Collective.
+  void about(const std::string& name, const std::string& text);
+
   /// Predicted size after `frames` frames.
   double bytes(double frames) const;
 

@@ -52,6 +52,8 @@ class Recorder {
   /// Before it is written: all rows and frames so far are on the disk. Collective.
   void sync();
   const std::string& folder() const { return folder_.path(); }
+  /// What tells this run's files from those of any other; an attribute of all of them.
+  const std::string& run() const { return run_; }
   const TimeStep& time() const { return time_; }
 
  private:
@@ -73,6 +75,7 @@ class Recorder {
 
   const SlidingBody& body_;
   const RecordChoice choice_;
+  const std::string run_;
   RunPosition position_;  ///< at the restart; of a new run all zero
   RunPosition written_;   ///< as the last checkpoint has it
   const TimeStep time_;
