@@ -177,23 +177,27 @@ std::string describe_kernel(MPI_Comm comm, const Model& model) {
 namespace {
 
 /// What sets the step, what the mesh loses by it, and what helps.
-std::string describe(const CriticalCell& cell, const Mesh& mesh) {
-  if (!std::isfinite(cell.eigenvalue)) return "";
+std::string describe_critical(const TimeStep& step, const Mesh& mesh) {
+  const CriticalCell& cell = step.frequency.critical;
+  // The bound that a cell makes is sharp where all are alike; the body's own limit lies above that of its
+  // worst.
+  const double sharper = step.limit / step.safe_limit, loss = std::min(1.0, cell.of_median * sharper),
+               in_region = std::min(1.0, cell.of_median_in_region * sharper);
   constexpr double even = 0.8;
   std::string text = format(
-      "the step is set by cell {} at ({}, {}) in region '{}', angles {:.0f} to {:.0f} degrees: "
-      "{:.2f} of the median cell's",
+      "the step is set by cell {} at ({}, {}) in region '{}', angles {:.0f} to {:.0f} degrees; it is "
+      "{:.2f} of what the median cell allows",
       cell.number, engineering(cell.centre[0], "m"), engineering(cell.centre[1], "m"),
-      mesh.regions[cell.region].name, cell.smallest_angle, cell.largest_angle, cell.of_median);
-  if (cell.of_median >= even) return text + "; the cells are even\n";
-  if (cell.of_median_in_region >= even)
+      mesh.regions[cell.region].name, cell.smallest_angle, cell.largest_angle, loss);
+  if (loss >= even) return text + "\n";
+  if (in_region >= even)
     return text + format(
-                      ", but {:.2f} of the median one's in its region: by its material or its finer cells; "
-                      "cells {:.1f} times as large there would cost no step\n",
-                      cell.of_median_in_region, 1 / cell.of_median);
+                      " and {:.2f} of what the median cell of the region does: cells {:.1f} times as large "
+                      "in this region would cost no more steps than the others\n",
+                      in_region, 1 / loss);
   return text +
-         format("; more even cells, as of morphology -cell grid, would need up to {:.1f} times fewer steps\n",
-                1 / cell.of_median);
+         format(": more even cells, as of morphology -cell grid, need up to {:.1f} times fewer steps\n",
+                1 / loss);
 }
 
 }  // namespace
@@ -214,7 +218,7 @@ std::string describe(const TimeStep& step, const Model& model) {
           engineering(step.safe_limit, "s") +
           " (largest element); step used: " + engineering(step.step, "s") +
           format(" ({:.3f} of the limit), {} steps\n", step.step / step.limit, step.count);
-  return text + describe(step.frequency.critical, mesh);
+  return text + describe_critical(step, mesh);
 }
 
 }  // namespace slipscale

@@ -211,6 +211,8 @@ void SlidingBody::advance(bool observed) {
 }
 
 void SlidingBody::find_velocity(const StepCoefficients& step) {
+  static const LogEvent event("ObservedState");
+  const LogEvent::Scope scope(event);
   const double back = step.predictor - step.velocity;  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
   for (int i = 0; i < model_.mesh.nodes.owned; ++i)
     for (int axis = 0; axis < 2; ++axis) v_.data()[i][axis] = w_.data()[i][axis] - back * a_.data()[i][axis];

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "series_layout.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/disk_space.hpp"
@@ -25,10 +26,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-hid_t file_type(SeriesFile::Storage storage) {
-  return storage == SeriesFile::Storage::byte ? H5T_STD_U8LE : H5T_IEEE_F64LE;
-}
-
 hid_t memory_type(SeriesFile::Storage storage) {
   return storage == SeriesFile::Storage::byte ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
 }
@@ -37,12 +34,6 @@ hid_t memory_type(SeriesFile::Storage storage) {
 hsize_t rows_in_chunk(double expected, std::size_t row) {
   const double most = static_cast<double>(chunk_bytes) / static_cast<double>(std::max<std::size_t>(row, 1));
   return static_cast<hsize_t>(std::max(1.0, std::floor(std::min(most, expected))));
-}
-
-std::vector<hsize_t> rows_of(hsize_t rows, const std::vector<hsize_t>& row_shape) {
-  std::vector<hsize_t> shape{rows};
-  shape.insert(shape.end(), row_shape.begin(), row_shape.end());
-  return shape;
 }
 
 }  // namespace
@@ -108,15 +99,6 @@ int SeriesFile::add(const std::string& path, const std::vector<hsize_t>& row_sha
   row_bytes_ += column.bytes;
   columns_.push_back(std::move(column));
   return static_cast<int>(columns_.size()) - 1;
-}
-
-void SeriesFile::open_column(Column& column, const std::string& units) {
-  column.dataset =
-      expect_series(file_, column.path, file_type(column.storage), column.row_shape, continued_->rows, units);
-  const Hdf5Properties creation(hdf5(H5Dget_create_plist(column.dataset), column.path));
-  hsize_t rows_per_chunk = 0;
-  hdf5(H5Pget_chunk(creation, 1, &rows_per_chunk), column.path);
-  column.chunk = rows_per_chunk * column.bytes;
 }
 
 void SeriesFile::constant(const std::string& path, const double* values, const std::vector<hsize_t>& shape,
@@ -186,16 +168,6 @@ void SeriesFile::flush() {
   last_ = Clock::now();
 }
 
-/// Of a continued file, the rows behind those that count.
-void SeriesFile::cut_back() {
-  if (!to_cut_) return;
-  for (const Column& column : columns_)
-    hdf5(H5Dset_extent(column.dataset, rows_of(written_, column.row_shape).data()), column.path);
-  flush_file();  // what comes next may use the room of what was cut off
-  let_data_through(file_);
-  to_cut_ = false;
-}
-
 /// Sets room aside for `rows` rows, or for as many as a full disk takes: half, a quarter, … The reason why
 /// not for all; empty when all fit.
 std::string SeriesFile::reserve_for(hsize_t& rows) {
@@ -261,27 +233,16 @@ void SeriesFile::close() {
 
 std::vector<double> SeriesFile::read(int id) {
   const Column& column = columns_[static_cast<std::size_t>(id)];
-  std::vector<double> values(written_ * column.bytes / sizeof(double));
-  const auto from_disk = [&] {
-    if (written_ == 0) return;
-    const std::string& what = column.path;
-    const auto count = rows_of(written_, column.row_shape);
-    const Hdf5Space source(hdf5(H5Dget_space(column.dataset), what));
-    const std::vector<hsize_t> start(count.size(), 0);
-    hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), what);
-    const Hdf5Space target(
-        hdf5(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), what));
-    hdf5(H5Dread(column.dataset, H5T_NATIVE_DOUBLE, target, source, H5P_DEFAULT, values.data()), what);
-  };
+  std::vector<double> values;
+  const auto from_disk = [&] { values = read_written(column); };
   if (continued_)
     checked(from_disk);
   else
     guarded("reading: ", from_disk);
   if (!sound()) return {};
-  const std::size_t waiting = column.batch.size() / sizeof(double);
-  values.resize(values.size() + waiting);
-  if (waiting > 0)
-    std::memcpy(values.data() + values.size() - waiting, column.batch.data(), column.batch.size());
+  const std::size_t known = values.size(), waiting = column.batch.size() / sizeof(double);
+  values.resize(known + waiting);
+  if (waiting > 0) std::memcpy(values.data() + known, column.batch.data(), column.batch.size());
   return values;
 }
 

@@ -57,12 +57,12 @@ Observer::Observer(const SlidingBody& body, bool momentum) : body_(body), moment
   }
 }
 
-Observation Observer::observe() const {
+Observation Observer::observe(bool bulk) const {
   Observation seen;
   seen.time = body_.time();
   seen.step = body_.steps_done() - 1;
-  seen.energy = body_.energy();
-  if (momentum_) {
+  if (bulk) seen.energy = body_.energy();
+  if (bulk && momentum_) {
     seen.momentum = body_.momentum();
     observe_plates(seen);
   }

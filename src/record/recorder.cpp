@@ -187,26 +187,34 @@ bool Recorder::fields_due(long n) const {
 }
 
 void Recorder::after_step(long n) {
-  force_.add(n);
+  {
+    static const LogEvent event("ForceRecord");
+    const LogEvent::Scope scope(event);
+    force_.add(n);
+  }
   if (due(n)) observe(n);
+  static const LogEvent event("Progress");
+  const LogEvent::Scope scope(event);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
 
 void Recorder::observe(long n) {
+  const bool row = n % history_every_ == 0 || n == last_, bulk = row || fields_due(n) || statistics_due(n);
   static const LogEvent observation("Observation"), writing("Writing");
   std::optional<LogEvent::Scope> scope(observation);
-  Observation seen = observer_.observe();
-  check(seen);
-  const auto readings = probes_.read(body_);
+  Observation seen = observer_.observe(bulk);
+  if (bulk) check(seen);
+  const auto readings = row ? probes_.read(body_) : std::vector<ProbeReading>{};
   scope.emplace(writing);
   if (contact_ && contact_due(n)) contact_->write(seen, body_.surface_velocity());
-  if (history_ && (n % history_every_ == 0 || n == last_)) {
+  if (history_ && row) {
     history_->write(seen, readings);
     seen.contact.clear();
     rows_.push_back(seen);
   }
   record_cells(n);
   share_faults();
+  if (!bulk) return;
   last_sound_ = n;
   const double relative = seen.energy.flowed > 0 ? std::abs(seen.energy.residual) / seen.energy.flowed : 0;
   largest_residual_ = std::max(largest_residual_, relative);

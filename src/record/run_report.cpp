@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/readable.hpp"
@@ -102,6 +103,8 @@ void Recorder::close_files() {
 }
 
 std::string Recorder::finish() {
+  static const LogEvent event("Summary");
+  const LogEvent::Scope scope(event);
   close_files();
   if (statistics_) statistics_->write(folder_.path());
   return summary(last_, "", "");

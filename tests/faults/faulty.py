@@ -53,8 +53,7 @@ class Faults(InScratch):
         return [*launcher, *before, "bash", "-c", script, program, *arguments_of(scene)]
 
     def start(self, scene, ranks=1, program=SLIDE, before=(), **fault):
-        """A running job; `before`: words in front of its command; `fault`: what disk_fault.cpp reads, without FAULT_, in
-        small letters."""
+        """A running job; `before`: words before its command; `fault`: for disk_fault.cpp, without FAULT_, small."""
         for old in self.folder.glob("pid.*"):
             old.unlink()
         more = {"FAULT_" + name.upper(): str(value) for name, value in fault.items()}
@@ -116,8 +115,8 @@ class Faults(InScratch):
     # What is left
 
     def check_left(self, folder, reference):
-        """Every file is readable, and holds the first rows and frames of the uninterrupted run, bit by bit. Returns how
-        many files a kill had left in the middle of a change."""
+        """Every file is readable, and holds the first rows and frames of the uninterrupted run, bit by bit. How
+        many of them a kill had left in the middle of a change."""
         torn = 0
         for name in GROWING:
             path = folder / name

@@ -8,7 +8,8 @@ import unittest
 from faulty import SCENE, Faults
 
 SEED = int(os.environ.get("SLIPSCALE_SEED", "1"))
-FULL = r"\Aslide: out/\S+ cannot be written: [^\n]*No space left on device; see that -output_folder is writable and its disk has room\n"
+FULL = (r"\Aslide: out/\S+ cannot be written: [^\n]*No space left on device; "
+        r"see that -output_folder is writable and its disk has room\n")
 
 
 class Full(Faults):
@@ -27,7 +28,7 @@ class Full(Faults):
                     code, err = self.run_job(self.scene, ranks, path=part, room=room)
                     if (self.folder / "out").exists():
                         self.assertEqual(self.check_left(self.folder / "out", whole), 0)
-                    if code == 0:  # what is written twice, or kept in reserve, makes the file smaller than what is written
+                    if code == 0:  # the file is smaller than what is written: parts of it are written again
                         self.assertGreater(room, size / 3)
                     else:
                         self.assertEqual(code, 1, err)
@@ -46,7 +47,8 @@ class FullOften(Full):
                     "out/run.yaml", "out/summary.yaml", "out/"], [0, 1e-3, *[None] * 8], 1)
 
     def test_two_ranks(self):
-        self.check(["out/history.h5", "out/contact.h5", "out/fields.h5", "out/statistics.h5", "out/"], [0, *[None] * 4], 2)
+        files = ["out/history.h5", "out/contact.h5", "out/fields.h5", "out/statistics.h5", "out/"]
+        self.check(files, [0, *[None] * 4], 2)
 
     def test_journals_need_not_be(self):
         """Where only they find no room, the run goes on without."""

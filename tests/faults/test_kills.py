@@ -9,6 +9,7 @@ import unittest
 from faulty import SCENE, Faults
 
 SEED = int(os.environ.get("SLIPSCALE_SEED", "1"))
+MOST = int(os.environ.get("SLIPSCALE_MOST", "100"))  # calls of one kind at which a program is killed, in the long tests
 
 
 class AtRandom(Faults):
@@ -91,32 +92,32 @@ class AimedOften(Aimed):
         pass
 
     def test_history(self):
-        self.check("out/history.h5", most=150, half=True)
-        self.check("out/history.h5", most=150, half=False)
+        self.check("out/history.h5", most=MOST, half=True)
+        self.check("out/history.h5", most=MOST, half=False)
 
     def test_contact(self):
-        self.check("out/contact.h5", most=150, half=True)
+        self.check("out/contact.h5", most=MOST, half=True)
 
     def test_fields(self):
-        self.check("out/fields.h5", most=150, half=True)
-        self.check("out/fields.h5", most=150, half=False)
+        self.check("out/fields.h5", most=MOST, half=True)
+        self.check("out/fields.h5", most=MOST, half=False)
 
     def test_journals(self):
-        self.check(".journal", most=100, half=True)
+        self.check(".journal", most=MOST, half=True)
 
     def test_xdmf(self):
-        self.check("out/fields.xdmf", most=40, half=True)
+        self.check("out/fields.xdmf", most=MOST // 2, half=True)
 
     def test_statistics(self):
-        self.check("out/statistics", most=40, half=True)
+        self.check("out/statistics", most=MOST // 2, half=True)
 
     def test_yaml(self):
-        self.check(".yaml", most=10, half=True)
+        self.check(".yaml", most=MOST // 10, half=True)
 
     def test_checkpoints(self):
         if not self.knows_restart():
             self.skipTest("slide knows no checkpoints")
-        self.check("out/checkpoint", most=100, half=True)
+        self.check("out/checkpoint", most=MOST, half=True)
 
 
 if __name__ == "__main__":

@@ -53,7 +53,8 @@ class Writers(Faults, Relocalising):
                 self.assertEqual(code, 0, err)
                 self.assertEqual({file.name for file in out.iterdir()}, set(whole))
             shutil.rmtree(out, ignore_errors=True)
-        print(f"kills in calls of {program.rsplit('/', 1)[-1]}: {len(numbers)} of {len(calls)}; whole files left: {left}")
+        name = program.rsplit("/", 1)[-1]
+        print(f"kills in calls of {name}: {len(numbers)} of {len(calls)}; whole files left: {left}", flush=True)
 
     def test_morphology(self):
         self.check(MORPHOLOGY, {**DISCS, "output_folder": "out"})

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -160,4 +161,50 @@ TEST(Partition, ReportsWhatEachRankHolds) {
     // No rank holds more than twice its share: 24 cells at least on at most three ranks.
     for (PetscInt cells : report.owned_cells) EXPECT_LE(cells * ranks, 2 * mesh.cells.total);
   }
+}
+
+/// Of a grid the nodes of a line come one after the other, and the lines too: along x, where there are fewer
+/// of these, whatever the order of the file; after a refinement as well, and on a mesh that is periodic along
+/// the lines.
+TEST(Numbering, GoesAlongTheLinesOfAGrid) {
+  for (const Shape shape : {Shape::triangles, Shape::quadrilaterals, Shape::mixed})
+    for (const int refine : {0, 1})
+      for (const bool periodic : {false, true}) {
+        SCOPED_TRACE(testing::Message() << "shape " << static_cast<int>(shape) << ", refined " << refine
+                                        << (periodic ? ", periodic" : ""));
+        Block block;
+        block.nx = 24;
+        block.ny = 17;
+        block.width = 1.1;
+        block.height = 0.7;
+        block.shape = shape;
+        block.periodic_x = periodic;
+        const std::string path = scratch("lines.msh");
+        write_block(block, path);
+        const Mesh mesh = read_mesh(PETSC_COMM_SELF, {path, Partitioner::metis, refine});
+        const int across = block.nx * (1 + refine) + (periodic ? 0 : 1), lines = block.ny * (1 + refine) + 1;
+        ASSERT_EQ(mesh.nodes.total, across * lines);
+        const double spacing = block.width / (block.nx * (1 + refine));
+        for (int i = 0; i < mesh.nodes.total; ++i) {
+          const Vector2 &x = mesh.nodes.position[i], &first = mesh.nodes.position[i - i % across];
+          EXPECT_NEAR(x[0], i % across * spacing, 1e-12);
+          EXPECT_NEAR(x[1], first[1], 1e-12);
+          if (i >= across) {
+            EXPECT_NEAR(std::abs(x[1] - mesh.nodes.position[i - across][1]), block.height / (lines - 1),
+                        1e-12);
+          }
+        }
+      }
+}
+
+/// Where a block is higher than wide, the lines go up.
+TEST(Numbering, TakesTheFewerLines) {
+  Block block;
+  block.nx = 17;
+  block.ny = 60;
+  block.shape = Shape::quadrilaterals;
+  const std::string path = scratch("lines.msh");
+  write_block(block, path);
+  const Mesh mesh = read_mesh(PETSC_COMM_SELF, {path});
+  for (int i = 0; i < mesh.nodes.total; ++i) EXPECT_NEAR(mesh.nodes.position[i][1], i % 61 / 60.0, 1e-12);
 }

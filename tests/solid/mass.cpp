@@ -72,3 +72,31 @@ TEST(Mass, OneCellAttainsTheBound) {
   const FrequencyBounds bounds = largest_frequency(PETSC_COMM_SELF, model);
   EXPECT_NEAR(bounds.sharp / bounds.safe, 1, 1e-3);
 }
+
+/// Of equal squares the stiffer ones set the step, the first of them, and what its step is to that of the
+/// median cell follows from the stiffness: √¼; in its region none is worse.
+TEST(CriticalCell, IsTheFirstOfTheStiffestCells) {
+  Block block;
+  block.nx = 20;
+  block.ny = 12;
+  block.shape = Shape::quadrilaterals;
+  block.region = [](double x, double y) { return std::hypot(x - 0.7, y - 0.4) < 0.2 ? 2 : 1; };
+  const Material soft = isotropic(1e9, 0.3, 1000), stiff = isotropic(4e9, 0.3, 1000);
+  const std::string path = scratch("critical.msh");
+  write_block(block, path);
+  const Mesh whole = read_mesh(PETSC_COMM_SELF, {path}), mesh = read_mesh(PETSC_COMM_WORLD, {path});
+  const CriticalCell alone = critical_cell(PETSC_COMM_SELF, whole, {soft, stiff}),
+                     found = critical_cell(PETSC_COMM_WORLD, mesh, {soft, stiff});
+  EXPECT_EQ(found.eigenvalue, alone.eigenvalue);
+  EXPECT_EQ(found.number, alone.number);
+  EXPECT_EQ(found.centre, alone.centre);
+  EXPECT_EQ(mesh.regions[found.region].name, "inclusion");
+  EXPECT_LT(std::hypot(found.centre[0] - 0.7, found.centre[1] - 0.4), 0.2);
+  EXPECT_NEAR(found.smallest_angle, 90, 1e-9);
+  EXPECT_NEAR(found.largest_angle, 90, 1e-9);
+  EXPECT_NEAR(found.of_median, 0.5, 0.005);
+  EXPECT_NEAR(found.of_median_in_region, 1, 0.01);
+  EXPECT_EQ(found.of_median, alone.of_median);
+  const auto corners = whole.cells.corners_of(static_cast<int>(found.number));
+  EXPECT_EQ(largest_element_eigenvalue(corners, stiff.stiffness, stiff.density), found.eigenvalue);
+}

@@ -115,14 +115,14 @@ TEST(RepeatedRows, AreFoundWhereAGridIs) {
     Block block = grid(shape);
     const auto [gathered, repeating] = parts(block_mesh(block));
     EXPECT_EQ(gathered, 1);
-    EXPECT_GT(repeating, ranks == 1 ? 0.95 : 0.85);
+    EXPECT_GT(repeating, ranks == 1 ? 0.95 : 0.8);  // the more ranks, the more ends
     const auto [refined_gathered, refined_repeating] = parts(block_mesh(block, Partitioner::metis, 1));
     EXPECT_EQ(refined_gathered, 1);
-    EXPECT_GT(refined_repeating, 0.93);
+    EXPECT_GT(refined_repeating, 0.9);
     block.region = in_disc;
     const auto [disc_gathered, disc_repeating] = parts(block_mesh(block));
     EXPECT_EQ(disc_gathered, 1);
-    EXPECT_GT(disc_repeating, 0.75);
+    EXPECT_GT(disc_repeating, ranks == 1 ? 0.75 : 0.6);
     block.region = in_disorder;
     if (ranks == 1) {
       const auto [half_gathered, half_repeating] = parts(block_mesh(block));

@@ -102,6 +102,7 @@ class SeriesFile {
   template <class Action>
   void checked(Action action);
   void open_column(Column& column, const std::string& units);
+  std::vector<double> read_written(const Column& column) const;
   void append_bytes(int id, const void* row, Storage storage);
   std::string reserve_for(hsize_t& rows);
   void reserve(hsize_t rows);

@@ -1,5 +1,6 @@
 """What several pictures share: cells in colour, units of length, and the way from the command line to the image."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -77,9 +78,12 @@ def few_ticks(axis):
 
 
 def keep_small(picture, copy):
-    """A copy to stand in a README: without transparency, in all of its colours, as fields would show steps in fewer."""
+    """A copy to stand in a README: without transparency, in all of its colours, as fields would show steps in fewer. It
+    is there whole or not at all."""
+    unfinished = Path(copy).with_name(f"unfinished-{Path(copy).name}")
     with Image.open(picture) as image:
-        image.convert("RGB").save(copy, optimize=True)
+        image.convert("RGB").save(unfinished, optimize=True)
+    os.replace(unfinished, copy)
 
 
 def write_picture(parser, draw, arguments=None):

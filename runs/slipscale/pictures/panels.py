@@ -191,8 +191,8 @@ def energy_ledger(axes, history):
 
 
 def relative_residual(history):
-    """Largest residual of the energy balance over what had flowed by then, of all rows, as summary.yaml has it; None when
-    not recorded."""
+    """Largest residual of the energy balance over what had flowed by then, of all rows, as summary.yaml has it; None
+    when not recorded."""
     residual, flowed = history.energy.get("residual"), history.energy.get("flowed")
     if residual is None or flowed is None or not flowed[-1] > 0:
         return None

@@ -38,7 +38,8 @@ def sum_of(numbers, rest):
 
 
 def make_good(path):
-    """Whether there was something to make good, and it is. Leaves alone what it may not write, or a run is at work on."""
+    """Whether there was something to make good, and it is. Leaves alone what it may not write, or a run is at work
+    on."""
     journal = path.with_name(path.name + ".journal")
     try:
         with open(journal, "rb") as file:
@@ -54,3 +55,7 @@ def make_good(path):
             return True
     except OSError:
         return False
+
+
+if __name__ == "__main__":
+    raise SystemExit("slipscale.reading.recovery is a library, no command: slipscale -h lists the commands.")
