@@ -149,6 +149,16 @@ class SameBytes(InBlock):
         self.assertIn("the run in 'out' is finished (t = 1e-06 s); a later -time_end would make it longer", outcome.out)
         self.assertEqual(before, {path.name: path.read_bytes() for path in (self.folder / "out").iterdir()})
 
+    def test_with_another_kernel_and_a_massless_plate(self):
+        """Both promise the same bits; a plate without mass has the momentum +0 on any number of ranks."""
+        scene = {**SHORT, "boundary_top_y": "tilting", "boundary_top_force": -60e3, "history_momentum": "yes"}
+        self.run_scene(scene, output_folder="whole", time_end=2e-6)
+        self.run_scene(scene, output_folder="out", time_end=1e-6, ranks=2)
+        outcome = self.slide("-restart", "out", "-time_end", 2e-6, "-stiffness_kernel", "pairs", "-stiffness_instructions",
+                             "base", ranks=2)
+        self.assertEqual((outcome.codes, outcome.err), ([0, 0], ""), outcome.out)
+        self.assert_same("whole", "out")
+
     def test_within_its_wall_time(self):
         start = time.monotonic()
         outcome = self.slide(*arguments_of({**LONG, "time_end": 1, "time_wall": 0.06}))

@@ -22,22 +22,24 @@ SBATCH = r'''#!/usr/bin/python3
 import json, os, signal, subprocess, sys, time
 from pathlib import Path
 
-def slides(session):
-    """(number, folder) of each slide of a session."""
+def slides(group):
+    """(number, folder) of each slide of a process group."""
     for path in Path("/proc").glob("[0-9]*"):
         try:
-            if os.getsid(int(path.name)) == session and (path / "comm").read_text() == "slide\n":
+            if os.getpgid(int(path.name)) == group and (path / "comm").read_text() == "slide\n":
                 words = (path / "cmdline").read_text().split("\0")
                 yield int(path.name), Path(os.readlink(path / "cwd")) / words[words.index("-output_folder") + 1]
         except (OSError, ValueError):
             pass
 
 def run(script, log, words, stop):
+    begin = time.time()
     job = subprocess.Popen(script, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env={**os.environ, **words},
-                           start_new_session=True)
+                           process_group=0)
     while stop and job.poll() is None:
         for number, folder in slides(job.pid):
-            if stop and (folder / "checkpoint.h5").exists():
+            left = folder / "checkpoint.h5"
+            if stop and left.exists() and left.stat().st_mtime > begin:
                 os.kill(number, signal.SIGUSR1)
                 stop = False
         time.sleep(0.02)
@@ -53,7 +55,7 @@ before = [here / f"job-{word}.json" for word in options.get("dependency", "").sp
 never = any(json.loads(path.read_text())["state"] != "COMPLETED" for path in before)
 first, last = map(int, options.get("array", "1-1").split("-"))
 for task in range(first, last + 1):
-    words = {"SLURM_JOB_ID": str(number), "SLURM_JOB_END_TIME": str(int(time.time()) + 60 * int(options["time"]))}
+    words = {"SLURM_JOB_ID": str(number), "SLURM_JOB_END_TIME": str(int(time.time()) + 60 * int(options.get("time", 60)))}
     if "ntasks" in options:
         words["SLURM_NTASKS"] = options["ntasks"]
     if "array" in options:
@@ -226,9 +228,10 @@ class Cluster(studies.StudyCase):
         self.assertFalse(list(self.out.glob("run/*/outcome.yaml")))
 
     def test_what_a_job_asks_for(self):
-        needs = {"ranks": 2, "mem_mb": 500, "runtime": 7, "exclusive": 1}
-        for resources, threads, words in ((needs, 4, "--ntasks=2 --cpus-per-task=2 --time=7 --mem=500 --exclusive"),
-                                          ({"exclusive": 0}, 1, "--ntasks=1 --cpus-per-task=1")):
+        needs = {"ranks": 2, "mem_mb": 500, "runtime": 7, "exclusive": 1, "stops": 60}
+        asked = "--ntasks=2 --cpus-per-task=2 --time=7 --mem=500 --signal=USR1@60 --exclusive"
+        for resources, threads, words in ((needs, 4, asked),
+                                          ({"exclusive": 0, "stops": 0}, 1, "--ntasks=1 --cpus-per-task=1")):
             script = self.folder / "job.sh"
             properties = {"rule": "mesh", "wildcards": {"mesh": "a"}, "threads": threads, "resources": resources}
             script.write_text(f"#!/bin/sh\n# properties = {json.dumps(properties)}\ntrue\n")

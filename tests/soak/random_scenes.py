@@ -16,6 +16,10 @@ NOT_DRAWN = {
 }
 
 
+# Of a body that nothing holds up or down: what is thrown some metres moves in steps of rounding. s
+LONGEST_FLIGHT = 2e-4
+
+
 class Scene:
     """Draws one; `options` is what came of it: its body first (see `physics`), then what needs its time step."""
 
@@ -192,7 +196,7 @@ class Scene:
     # Time, and what is written.
 
     def writing(self, stable_step, steps):
-        """Of a run of about so many `steps`, whose stable step is known, s."""
+        """Of a run of about so many `steps`, or fewer, whose stable step is known, s."""
         if self.often(0.5):
             step = self.entry("time_safety").number(self.chance)
             self.put("time_safety", step)
@@ -202,6 +206,9 @@ class Scene:
             self.put("time_step", step)
         else:
             step = 0.9 * stable_step
+        if not any(isinstance(self.options.get(f"boundary_{side}_y"), float) or
+                   self.options.get(f"boundary_{side}_y") == "fixed" for side in ("top", "bottom")):
+            steps = min(steps, int(LONGEST_FLIGHT / step))
         self.end = rounded(step * steps)
         self.put("time_end", self.end)
         self.rows("history", steps, 400)
