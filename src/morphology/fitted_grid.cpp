@@ -53,4 +53,19 @@ FittedGrid fitted_grid(const Lattice& lattice, const std::vector<Body>& bodies,
   return grid;
 }
 
+FittedGrid fitted_grid(const Lattice& lattice, const Contour& contour,
+                       const std::vector<std::string>& regions) {
+  const std::vector<Body> none;
+  Fit fitted = fit(lattice, none, contour);
+  FittedGrid grid;
+  grid.unresolved = fitted.unresolved;
+  grid.squeezed = fitted.squeezed;
+  grid.relieved = relieve(fitted);
+  grid.blunted = fitted.blunted;
+  decide_surrounded(fitted);
+  grid.mesh = mesh_of(fitted, {1});
+  grid.mesh.regions = regions;
+  return grid;
+}
+
 }  // namespace slipscale::morphology

@@ -19,6 +19,11 @@ struct FittedGrid {
 FittedGrid fitted_grid(const Lattice& lattice, const std::vector<Body>& bodies,
                        const std::vector<double>& drawn, const std::vector<std::string>& regions);
 
+/// The same for the contour of a picture, whose inside has the area that the level gives it. Places that are
+/// not resolved are counted, and the mesh is there all the same.
+FittedGrid fitted_grid(const Lattice& lattice, const Contour& contour,
+                       const std::vector<std::string>& regions);
+
 /// Moves the interface of each part, where it is curved, in or out until the part has its drawn area.
 void correct_areas(Fit& fit, const std::vector<double>& drawn);
 
