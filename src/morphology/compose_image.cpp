@@ -65,41 +65,40 @@ void take_despeckled(Filtered& filtered, double level) {
 }
 
 void refuse_coarse_grid(const Recipe& recipe, const Composed& composed) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const double extent = composed.block.extent(axis),
-                 most = recipe.room.periodic[axis] ? extent / 3 : extent;
-    if (recipe.mesh.size.bulk > most * (1 + 1e-9))
-      throw UserError(format(
-          "-size {:g} {} the {} of the picture ({:g} m); give at most {:g}", recipe.mesh.size.bulk,
-          recipe.room.periodic[axis] ? "leaves fewer than three cells across the periodic" : "is more than",
-          axis == 0 ? "width" : "height", extent, 0.999 * most));
-  }
+  const auto most = [&](int axis) {
+    return composed.block.extent(axis) / (recipe.room.periodic[axis] ? 3 : 1);
+  };
+  const int axis = most(0) < most(1) ? 0 : 1;  // the one that asks for more
+  if (recipe.mesh.size.bulk <= most(axis) * (1 + 1e-9)) return;
+  constexpr double less = 0.995;  // so that rounding does not bring it beyond
+  throw UserError(format(
+      "-size {:g} {} {} of the picture ({:g} m); give at most {:.3g}", recipe.mesh.size.bulk,
+      recipe.room.periodic[axis] ? "leaves fewer than three cells across the periodic" : "is more than the",
+      axis == 0 ? "width" : "height", composed.block.extent(axis), less * most(axis)));
 }
 
 /// Bisects the level until the meshed area of the bright region is that of its pixels: a chord is shorter
-/// than its arc, corners of single pixels are cut off. Keeps the level that comes nearest.
-FittedGrid with_area(const Lattice& lattice, Contour& contour, const std::vector<std::string>& regions,
-                     double wanted, double* shift) {
+/// than its arc, corners of single pixels are cut off. The area jumps where a square changes sides; the level
+/// that comes nearest is kept. Returns how far it is off its own.
+double set_level_by_area(const Lattice& lattice, Contour& contour, const std::vector<std::string>& regions,
+                         double wanted) {
   constexpr int halvings = 14;
   constexpr double enough = 1e-5;    // of the block
   constexpr double farthest = 0.75;  // of the way to black or white
   const double level = contour.level(), block = lattice.block().width() * lattice.block().height();
   const double reach = farthest * std::min(level, 1 - level);
-  double low = level - reach, high = level + reach, least = INFINITY;
-  FittedGrid best;
-  for (int k = 0; k <= halvings; ++k) {
-    FittedGrid grid = fitted_grid(lattice, contour, regions);
-    const double excess = (region_areas(grid.mesh)[1] - wanted) / block;
+  double low = level - reach, high = level + reach, best = level, least = INFINITY;
+  for (int k = 0; k <= halvings && least > enough; ++k) {
+    const double excess = (region_areas(fitted_grid(lattice, contour, regions).mesh)[1] - wanted) / block;
     if (std::abs(excess) < least) {
       least = std::abs(excess);
-      best = std::move(grid);
-      *shift = contour.level() - level;
+      best = contour.level();
     }
-    if (least < enough || reach == 0) break;
     (excess > 0 ? low : high) = contour.level();
     contour.set_level(0.5 * (low + high));
   }
-  return best;
+  contour.set_level(best);
+  return best - level;
 }
 
 void fit_contour(const Recipe& recipe, Filtered& filtered, Composed& composed) {
@@ -111,9 +110,9 @@ void fit_contour(const Recipe& recipe, Filtered& filtered, Composed& composed) {
   const Lattice lattice(composed.block, recipe.room.periodic, composed.grid);
   composed.pixel_fraction = static_cast<double>(std::ranges::count(filtered.region, 1)) /
                             static_cast<double>(filtered.region.size());
-  const double block = composed.block.width() * composed.block.height();
-  FittedGrid grid = with_area(lattice, contour, recipe.image.regions, composed.pixel_fraction * block,
-                              &composed.level_shift);
+  const double wanted = composed.pixel_fraction * composed.block.width() * composed.block.height();
+  composed.level_shift = set_level_by_area(lattice, contour, recipe.image.regions, wanted);
+  FittedGrid grid = fitted_grid(lattice, contour, recipe.image.regions, wanted);
   for (const auto& [parts, count] : grid.unresolved) composed.unresolved += count;
   take(std::move(grid), composed);
 }
