@@ -70,11 +70,21 @@ void refuse_coarse_grid(const Recipe& recipe, const Composed& composed) {
   };
   const int axis = most(0) < most(1) ? 0 : 1;  // the one that asks for more
   if (recipe.mesh.size.bulk <= most(axis) * (1 + 1e-9)) return;
-  constexpr double less = 0.995;  // so that rounding does not bring it beyond
   throw UserError(format(
-      "-size {:g} {} {} of the picture ({:g} m); give at most {:.3g}", recipe.mesh.size.bulk,
+      "-size {:g} {} {} of the picture ({:g} m); give a few pixels, of {:g} m each", recipe.mesh.size.bulk,
       recipe.room.periodic[axis] ? "leaves fewer than three cells across the periodic" : "is more than the",
-      axis == 0 ? "width" : "height", composed.block.extent(axis), less * most(axis)));
+      axis == 0 ? "width" : "height", composed.block.extent(axis), recipe.image.pixel));
+}
+
+/// Shapes of a cell or two across lie between the nodes, and no level brings their area back.
+void refuse_lost_area(const Recipe& recipe, const Composed& composed) {
+  constexpr double most = 0.01;  // of the block
+  const double meshed = region_areas(composed.mesh)[1] / (composed.block.width() * composed.block.height());
+  if (std::abs(meshed - composed.pixel_fraction) > most)
+    throw UserError(
+        format("-size {:g} is too coarse for the picture: '{}' has {:.3f} of the pixels and would "
+               "have {:.3f} of the mesh; give a smaller one, or leave out -cell grid",
+               recipe.mesh.size.bulk, recipe.image.regions[1], composed.pixel_fraction, meshed));
 }
 
 /// Bisects the level until the meshed area of the bright region is that of its pixels: a chord is shorter
@@ -115,6 +125,7 @@ void fit_contour(const Recipe& recipe, Filtered& filtered, Composed& composed) {
   FittedGrid grid = fitted_grid(lattice, contour, recipe.image.regions, wanted);
   for (const auto& [parts, count] : grid.unresolved) composed.unresolved += count;
   take(std::move(grid), composed);
+  refuse_lost_area(recipe, composed);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ SHAPES = {
     "picture": IMAGE,
     "despeckled picture": {**IMAGE, "image_despeckle": 5},
     "filtered picture": {**IMAGE, "image_median": 1},
-    "contour of a picture": {**CONTOUR, "image_pixel": 1e-4, "image_despeckle": 5},
+    "contour of a picture": {**CONTOUR, "image_pixel": 1e-4, "size": 3e-5},
     "block": {**GRID, "structured": None},
     "grid": GRID,
     "grid of triangles": {**GRID, "cell": "triangle"},

@@ -159,9 +159,11 @@ MISTAKES = {
     "contours of three regions": Mistake(["-image_levels gives 2 levels", "leave out -cell grid"],
                                          {**CONTOUR, "image_levels": "0.3,0.6", "image_regions": "a,b,c"}),
     "contour coarser than the picture": Mistake(["-size 2e-05 is more than the height of the picture (1.2e-05 m)"],
-                                                {**CONTOUR, "size": 2e-5}, cure="size"),
+                                                {**CONTOUR, "size": 2e-5}),
     "contour coarser than the period": Mistake(["-size 6e-06 leaves fewer than three cells"],
-                                               {**CONTOUR, "size": 6e-6, "periodic": "x"}, cure="size"),
+                                               {**CONTOUR, "size": 6e-6, "periodic": "x"}),
+    "contour lost between the nodes": Mistake(["-size 2e-06 is too coarse for the picture", "0.500 of the pixels",
+                                               "give a smaller one"], CONTOUR),
     "width of a picture": idle("block_width", 1e-4, "with -shape image", **IMAGE),
     "fraction and diameter of an array": Mistake(["-fraction contradicts -diameter"], {**SQUARE, "diameter": 1e-3}),
     # Numbers and words
