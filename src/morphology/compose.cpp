@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "compose_fitted.hpp"
+#include "compose_image.hpp"
 #include "mend.hpp"
 #include "sides.hpp"
 #include "slipscale/base/error.hpp"
@@ -16,17 +17,8 @@
 namespace slipscale {
 namespace {
 
-constexpr int repairs = 8;  ///< meshes made before a recipe is given up
-constexpr double most_cells = 1e8;
+constexpr int repairs = 8;                                      ///< meshes made before a recipe is given up
 constexpr double smoothed_below = 35 * std::numbers::pi / 180;  ///< a cell with such an angle costs time step
-
-void refuse_too_many(double cells) {
-  if (cells > most_cells)
-    throw UserError(
-        format("-size asks for about {:.1e} cells, beyond the {:.0e} that a mesh file holds here; give a "
-               "larger one",
-               cells, most_cells));
-}
 
 std::vector<std::string> region_names(const Recipe& recipe) {
   std::vector<std::string> names{"matrix"};
@@ -62,35 +54,6 @@ void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, GmshMod
 void compose_grid(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   const auto [columns, rows] = composed.grid = grid_cells(recipe, composed.block);
   gmsh.mesh_grid(composed.block, recipe.room.periodic, columns, rows, recipe.mesh.cell, {"matrix"}, {});
-  composed.mesh = gmsh.read();
-  composed.quality = quality(composed.mesh);
-}
-
-void compose_image(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
-  GreyPicture picture = read_grey(recipe.image.file);
-  refuse_too_many(static_cast<double>(picture.columns) * picture.rows);
-  for (int axis = 0; axis < 2; ++axis)
-    if (const int across = axis == 0 ? picture.columns : picture.rows;
-        recipe.room.periodic[axis] && across < 3)
-      throw UserError(format(
-          "-image_file '{}' has {} {}, and -periodic {} needs three at least; give a larger "
-          "picture, or another -periodic",
-          recipe.image.file, across, axis == 0 ? "columns" : "rows", recipe.room.periodic[1] ? "xy" : "x"));
-  composed.block.upper = {picture.columns * recipe.image.pixel, picture.rows * recipe.image.pixel};
-  composed.grid = {picture.columns, picture.rows};
-  const std::vector<int> unfiltered = regions_of(picture, recipe.image);
-  median_filter(picture, recipe.room.periodic, recipe.image.median);
-  std::vector<int> region = regions_of(picture, recipe.image);
-  for (std::size_t k = 0; k < region.size(); ++k) composed.filtered += region[k] != unfiltered[k];
-  composed.coloured = picture.coloured;
-  composed.despeckled =
-      despeckle(region, picture.columns, picture.rows, recipe.room.periodic, recipe.image.despeckle);
-  for (std::size_t k = 0; k < recipe.image.regions.size(); ++k)
-    if (std::ranges::count(region, static_cast<int>(k)) == 0)
-      throw UserError("no pixel of -image_file '" + recipe.image.file + "' has the grey of region '" +
-                      recipe.image.regions[k] + "'; change -image_levels");
-  gmsh.mesh_grid(composed.block, recipe.room.periodic, picture.columns, picture.rows,
-                 CellShape::quadrilateral, recipe.image.regions, region);
   composed.mesh = gmsh.read();
   composed.quality = quality(composed.mesh);
 }
@@ -143,6 +106,15 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
 }
 
 }  // namespace
+
+void refuse_too_many(double cells) {
+  constexpr double most_cells = 1e8;
+  if (cells > most_cells)
+    throw UserError(
+        format("-size asks for about {:.1e} cells, beyond the {:.0e} that a mesh file holds here; give a "
+               "larger one",
+               cells, most_cells));
+}
 
 double expected_cells(const Recipe& recipe) {
   if (recipe.composite == Composite::image) return 0;

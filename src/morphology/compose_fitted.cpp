@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "fitted_grid.hpp"
 #include "sides.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -19,14 +18,6 @@ namespace {
 Lattice lattice_of(const Recipe& recipe, Composed& composed) {
   composed.grid = grid_cells(recipe, composed.block);
   return {composed.block, recipe.room.periodic, composed.grid};
-}
-
-void take(FittedGrid&& grid, Composed& composed) {
-  composed.mesh = std::move(grid.mesh);
-  composed.squeezed = grid.squeezed;
-  composed.blunted = grid.blunted;
-  composed.relieved = grid.relieved;
-  composed.quality = quality(composed.mesh);
 }
 
 std::string inclusion_at(const Composed& composed, int part) {
@@ -80,6 +71,14 @@ std::array<int, 2> grid_cells(const Recipe& recipe, const Box& block) {
   for (int axis = 0; axis < 2; ++axis)
     cells[axis] = std::max(1, static_cast<int>(std::lround(block.extent(axis) / recipe.mesh.size.bulk)));
   return cells;
+}
+
+void take(FittedGrid&& grid, Composed& composed) {
+  composed.mesh = std::move(grid.mesh);
+  composed.squeezed = grid.squeezed;
+  composed.blunted = grid.blunted;
+  composed.relieved = grid.relieved;
+  composed.quality = quality(composed.mesh);
 }
 
 void fit_inclusions(const Recipe& recipe, const std::vector<std::string>& regions, Composed& composed) {

@@ -1,6 +1,9 @@
 #include "fitted_grid.hpp"
 
+#include <cmath>
+
 #include "relief.hpp"
+#include "slipscale/morphology/quality.hpp"
 
 namespace slipscale::morphology {
 namespace {
@@ -50,6 +53,31 @@ FittedGrid fitted_grid(const Lattice& lattice, const std::vector<Body>& bodies,
   correct_areas(fitted, drawn);
   grid.mesh = mesh_of(fitted, regions_of_parts(bodies, drawn.size()));
   grid.mesh.regions = regions;
+  return grid;
+}
+
+FittedGrid fitted_grid(const Lattice& lattice, const Contour& contour,
+                       const std::vector<std::string>& regions, std::optional<double> drawn) {
+  const std::vector<Body> none;
+  Fit fitted = fit(lattice, none, contour);
+  FittedGrid grid;
+  grid.unresolved = fitted.unresolved;
+  grid.squeezed = fitted.squeezed;
+  if (drawn) grid.relieved = relieve(fitted);
+  grid.blunted = fitted.blunted;
+  decide_surrounded(fitted);
+  const auto take_mesh = [&] {
+    grid.mesh = mesh_of(fitted, {1});
+    grid.mesh.regions = regions;
+  };
+  take_mesh();
+  if (!drawn) return grid;
+  constexpr double farthest = 0.05;  // in cells
+  const double cell = lattice.step(0) * lattice.step(1),
+               missing = std::abs(*drawn - region_areas(grid.mesh)[1]);
+  if (missing > farthest * cell * static_cast<double>(fitted.touches.size())) return grid;
+  correct_areas(fitted, {*drawn});
+  take_mesh();
   return grid;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fitting.hpp"
 #include "slipscale/morphology/composite_mesh.hpp"
 
@@ -18,6 +20,12 @@ struct FittedGrid {
 
 FittedGrid fitted_grid(const Lattice& lattice, const std::vector<Body>& bodies,
                        const std::vector<double>& drawn, const std::vector<std::string>& regions);
+
+/// The same for the contour of a picture. Its inside gets the area `drawn` [m²] where that takes nodes a
+/// twentieth of a cell or less; without it, the area of the level, and no node is relieved, which is quick.
+/// Places that are not resolved are counted, and the mesh is there all the same.
+FittedGrid fitted_grid(const Lattice& lattice, const Contour& contour,
+                       const std::vector<std::string>& regions, std::optional<double> drawn = {});
 
 /// Moves the interface of each part, where it is curved, in or out until the part has its drawn area.
 void correct_areas(Fit& fit, const std::vector<double>& drawn);

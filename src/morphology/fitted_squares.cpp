@@ -16,6 +16,7 @@ int part_at_middle(const Fit& fit, const Place& low) {
     if (fit.on[fit.lattice.node(place)] != fit.on[fit.lattice.node(low)]) return nobody;  // between two parts
     middle = middle + 0.25 * fit.position(place);
   }
+  if (fit.contour) return fit.contour->inside(middle) ? 0 : nobody;
   for (const Place& place : places) {
     const int node = fit.lattice.node(place);
     const OnInterface& touch = fit.touches.at(node);

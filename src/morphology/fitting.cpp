@@ -215,6 +215,11 @@ class Fitter {
 
 Foot Fit::foot(int node, const Vector2& moved_by) const {
   const OnInterface& touch = touches.at(node);
+  if (contour) {
+    const Vector2 place = lattice.position(touch.seen);
+    // Where the grey is flat the node stays.
+    return contour->near(place + moved_by).value_or(Foot{place + moved[node], {}});
+  }
   return bodies[touch.body].nearest(lattice.position(touch.seen) + moved_by);
 }
 

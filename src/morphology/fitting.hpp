@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "contour.hpp"
 #include "lattice.hpp"
 
 namespace slipscale::morphology {
@@ -30,6 +31,7 @@ struct Fit {
   int squeezed = 0;  ///< edges for which the farther node had to move, the nearer lying on another interface
   int blunted = 0;   ///< nodes on sides of the block through which a wedge too thin for the grid was cut off
   std::map<int, int> surrounded;  ///< lower left node of squares with all corners on interfaces -> their part
+  const Contour* contour = nullptr;  ///< in place of bodies; its inside is part 0
 
   Vector2 position(const Place& place) const {
     const Vector2& by = moved[lattice.node(place)];
@@ -44,6 +46,10 @@ struct Fit {
 void decide_surrounded(Fit& fit);
 
 Fit fit(const Lattice& lattice, const std::vector<Body>& bodies);
+
+/// The same for the contour of a picture, with an empty list of bodies. Two interfaces that pass through one
+/// edge are left out there and counted as unresolved; a tip of less than half a cell does not count.
+Fit fit(const Lattice& lattice, const std::vector<Body>& none, const Contour& contour);
 
 /// What a square of the lattice becomes: one cell, or two triangles.
 struct Square {

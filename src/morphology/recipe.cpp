@@ -154,6 +154,22 @@ void read_image(const Options& options, Recipe& recipe) {
     morphology::refuse_region_name(name, "the region of -image_regions", taken);
 }
 
+/// Pixels, or squares of two pixels fitted to the contour between two regions.
+void read_image_mesh(const Options& options, Recipe& recipe) {
+  if (!morphology::fits_image(options)) return;
+  const GreyImage& image = recipe.image;
+  if (image.levels.size() != 1)
+    throw UserError(
+        format("-image_levels gives {} levels, and -cell grid fits its squares to the contour of "
+               "one; give one, or leave out -cell grid",
+               image.levels.size()));
+  recipe.mesh.cell = CellShape::grid;
+  constexpr double usual = 2;  // in pixels
+  const double size = options.given("size") ? options.real("size") : usual * image.pixel;
+  recipe.mesh.size.bulk = recipe.mesh.size.interface = recipe.mesh.size.surface = size;
+  recipe.mesh.worst_angle = options.real("worst_angle") * degree;
+}
+
 Composite composite_of(const Options& options, bool has_families, Arrangement& arrangement) {
   const std::string shape = has_families ? "families" : options.text("shape");
   if (shape == "none") return Composite::homogeneous;
@@ -188,6 +204,7 @@ Recipe read_recipe(Options& options) {
   recipe.room.periodic = {periodic != "none", periodic == "xy"};
   if (recipe.composite == Composite::image) {
     read_image(options, recipe);
+    read_image_mesh(options, recipe);
     return recipe;
   }
   recipe.room.block.upper = {options.real("block_width"), options.real("block_height")};

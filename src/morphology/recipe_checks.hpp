@@ -18,6 +18,9 @@ void refuse_region_name(const std::string& name, const std::string& where, std::
 /// Options that have no effect with what is drawn.
 void refuse_idle_with(const Options& options, Composite composite, const std::set<std::string>& families);
 
+/// Whether -cell grid is given, for a picture.
+bool fits_image(const Options& options);
+
 /// Options that have no effect with -cell grid.
 void refuse_idle_with_grid(const Options& options);
 

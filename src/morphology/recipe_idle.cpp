@@ -12,8 +12,8 @@ const Names of_inclusions{"diameter", "diameter_deviation", "diameter_distributi
     of_laminate{"layer_period"},
     of_image{"image_file", "image_levels", "image_regions", "image_pixel", "image_median", "image_despeckle"},
     of_inclusions_and_layers{"fraction", "angle"}, of_interfaces{"size_interface"},
-    of_free_mesh{"size_surface", "size_growth", "worst_angle"},
-    of_size{"block_width", "block_height", "size", "cell"}, of_rows{"structured"};
+    of_free_mesh{"size_surface", "size_growth", "worst_angle"}, of_block{"block_width", "block_height"},
+    of_size{"size", "cell"}, of_rows{"structured"};
 
 void refuse(const Options& options, const std::vector<Names>& groups, const Idle& idle) {
   for (const Names& names : groups) options.refuse_idle(names, idle);
@@ -27,6 +27,16 @@ Names saying_what(const std::set<std::string>& families) {
   return names;
 }
 
+void refuse_idle_with_image(const Options& options) {
+  refuse(options, {of_block},
+         {"with -shape image, whose pixels make the block", "give -image_pixel", {"shape"}});
+  if (fits_image(options)) return refuse_idle_with_grid(options);
+  refuse(options, {of_size, of_free_mesh, of_rows},
+         {"with -shape image, whose pixels are the cells",
+          "give -cell grid, which is fitted to their contours, or another -shape",
+          {"shape", "cell"}});
+}
+
 /// With a picture, a laminate or a homogeneous block.
 void refuse_idle_with_shape(const Options& options, Composite composite) {
   const std::string shape = options.text("shape");
@@ -35,9 +45,7 @@ void refuse_idle_with_shape(const Options& options, Composite composite) {
   if (composite != Composite::laminate) refuse(options, {of_laminate, of_inclusions_and_layers}, idle);
   if (composite != Composite::image) refuse(options, {of_image}, idle);
   if (composite != Composite::laminate) refuse(options, {of_interfaces}, idle);
-  if (composite == Composite::image)
-    refuse(options, {of_size, of_free_mesh, of_rows},
-           {"with -shape image, whose pixels are the cells", "give another -shape", {"shape"}});
+  if (composite == Composite::image) refuse_idle_with_image(options);
   // Beside -cell grid, -structured is itself without effect: asking for it would put it into the results.
   if (composite == Composite::homogeneous && options.text("cell") != "grid" && options.flag("structured"))
     refuse(options, {of_free_mesh},
@@ -45,6 +53,8 @@ void refuse_idle_with_shape(const Options& options, Composite composite) {
 }
 
 }  // namespace
+
+bool fits_image(const Options& options) { return options.given("cell") && options.text("cell") == "grid"; }
 
 void refuse_idle_with(const Options& options, Composite composite, const std::set<std::string>& families) {
   if (composite != Composite::homogeneous && composite != Composite::image)

@@ -84,7 +84,8 @@ Schema placement_schema() {
        "",
        required,
        {},
-       "PNG or PGM whose pixels become quadrilaterals; colours count by their luma .299 R + .587 G + .114 B"},
+       "PNG or PGM whose pixels become quadrilaterals, or, with -cell grid, whose contour at -image_levels "
+       "bounds the regions; colours count by their luma .299 R + .587 G + .114 B"},
       {"image_levels", Kind::reals, "1", required, grey,
        "ascending grey levels, 0 black to 1 white, at which the next region begins"},
       {"image_regions",
@@ -103,7 +104,8 @@ Schema placement_schema() {
 
 Schema mesh_choice_schema() {
   return {
-      {"size", Kind::real, "m", required, range::positive, "edge length of the mesh"},
+      {"size", Kind::real, "m", required, range::positive,
+       "edge length of the mesh; two pixels, unless given, of a grid fitted to a picture"},
       {"size_interface", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::positive),
        "edge length at interfaces; auto: size"},
       {"size_surface", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::positive),
@@ -111,7 +113,8 @@ Schema mesh_choice_schema() {
       {"size_growth", Kind::real, "1", "0.2", range::positive,
        "growth of the edge length per metre of distance from interface or surface"},
       {"cell", Kind::text, "", "triangle", range::one_of({"triangle", "quadrilateral", "grid"}),
-       "'grid' is rows of squares fitted to the interfaces, those on them split in two triangles: the "
+       "'grid' is rows of squares fitted to the interfaces, those of a picture with one level too, those on "
+       "them split in two triangles: the "
        "longest "
        "time step; quadrilaterals come from pairs of triangles, a few of which stay (a fifth of the cells "
        "where the "

@@ -13,6 +13,11 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+/// A grid fitted to a picture.
+bool contoured(const Recipe& recipe) {
+  return recipe.composite == Composite::image && recipe.mesh.cell == CellShape::grid;
+}
+
 /// Largest relative difference between an inclusion's meshed and drawn area.
 double area_error(const Composed& composed) {
   const auto meshed = inclusion_areas(composed.mesh, composed.drawn_area.size());
@@ -72,7 +77,7 @@ std::string placement_line(const Composed& composed) {
 }
 
 double part_of_picture(const Composed& composed, long pixels) {
-  return static_cast<double>(pixels) / composed.grid[0] / composed.grid[1];
+  return static_cast<double>(pixels) / composed.pixels[0] / composed.pixels[1];
 }
 
 std::string changed(const std::string& option, long value, const Composed& composed, long pixels) {
@@ -91,6 +96,20 @@ std::string fit_line(const Composed& composed) {
     text += format("; {} nodes on the sides bound wedges that are thinner than half a cell and left out",
                    composed.blunted);
   return text + "\n";
+}
+
+std::string contour_line(const Recipe& recipe, const Composed& composed) {
+  const double meshed = region_areas(composed.mesh)[1] / (composed.block.width() * composed.block.height());
+  std::string text =
+      format("'{}' has {:.5f} of the pixels and {:.5f} of the mesh, with the level {:+.4f} off its own\n",
+             recipe.image.regions[1], composed.pixel_fraction, meshed, composed.level_shift);
+  if (composed.unresolved)
+    text += format(
+        "-size {:g} is too coarse for the grid in {} places: two interfaces pass through one cell and are "
+        "left "
+        "out there; a smaller one shows them, -image_median or -image_despeckle takes them away\n",
+        recipe.mesh.size.bulk, composed.unresolved);
+  return text;
 }
 
 std::string histogram(const MeshQuality& quality) {
@@ -118,6 +137,7 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
   text += changed("image_median", recipe.image.median, composed, composed.filtered) +
           changed("image_despeckle", recipe.image.despeckle, composed, composed.despeckled);
   if (recipe.mesh.cell == CellShape::grid) text += fit_line(composed);
+  if (contoured(recipe)) text += contour_line(recipe, composed);
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
   if (!composed.drawn_area.empty())
@@ -165,6 +185,13 @@ std::string morphology_yaml(const std::map<std::string, std::string>& effective,
     if (recipe.image.despeckle > 0)
       yaml.exact("despeckled", part_of_picture(composed, composed.despeckled),
                  "of the area, that went to another region after it");
+    if (contoured(recipe)) {
+      yaml.exact("pixel_fraction", composed.pixel_fraction,
+                 "of the pixels, in '" + recipe.image.regions[1] +
+                     "'; the mesh has it to 1e-4 or as near as it can");
+      yaml.exact("level_shift", composed.level_shift, "of the grey level, which makes it so");
+      yaml.integer("unresolved", composed.unresolved, "edges with two interfaces, left out there");
+    }
     yaml.number("smallest_angle", quality.smallest_angle / degree, "degree");
     yaml.number("largest_angle", quality.largest_angle / degree, "degree");
     yaml.number("step_length", quality.step_length,

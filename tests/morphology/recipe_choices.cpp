@@ -107,7 +107,8 @@ std::vector<Typed> meshes(bool has_interface) {
 /// Scenes that are complete and without an option that has no effect.
 std::vector<Typed> scenes(const std::string& periodic) {
   const Typed common = output + Typed{{"periodic", periodic}};
-  std::vector<Typed> all{common + image};
+  const Typed fitted{{"cell", "grid"}, {"size", "2e-4"}, {"worst_angle", "10"}};
+  std::vector<Typed> all{common + image, common + image + fitted};
   for (const Typed& mesh : meshes(false)) all.push_back(common + mesh + Typed{{"shape", "none"}});
   for (const Typed& mesh : meshes(true)) {
     all.push_back(common + mesh + layers);

@@ -21,6 +21,7 @@ GRID = {"shape": "none", "structured": "true", "cell": "quadrilateral",
 LAYERS = {"shape": "laminate", "layer_period": 1e-3, "diameter": None, "seed": None}
 IMAGE = {"shape": "image", "image_file": "grains.png", "image_levels": "0.5", "image_pixel": 1e-4, "seed": None,
          **{name: None for name in ("block_width", "block_height", "size", "fraction", "diameter")}}
+CONTOUR = {**IMAGE, "cell": "grid", "image_pixel": 1e-6}
 SQUARE = {"arrangement": "square", "columns": 3, "rows": 3, "diameter": None, "seed": None}
 
 

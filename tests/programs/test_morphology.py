@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import yaml
-from drawing import DISCS, FILES, GRAINS, GRID, IMAGE, LAYERS, SQUARE, Drawing, families
+from drawing import CONTOUR, DISCS, FILES, GRAINS, GRID, IMAGE, LAYERS, SQUARE, Drawing, families, png
 from running import arguments_of
 
 RECIPES = sorted((Path(__file__).parents[2] / "meshes").glob("*.yaml"))
@@ -27,6 +27,7 @@ SHAPES = {
     "picture": IMAGE,
     "despeckled picture": {**IMAGE, "image_despeckle": 5},
     "filtered picture": {**IMAGE, "image_median": 1},
+    "contour of a picture": {**CONTOUR, "image_pixel": 1e-4, "size": 3e-5},
     "block": {**GRID, "structured": None},
     "grid": GRID,
     "grid of triangles": {**GRID, "cell": "triangle"},
@@ -146,6 +147,94 @@ class Results(Drawing):
             self.assertIn(group, groups)
         self.assertIn("-families_<family>_fraction", outcome.out)
         self.assertEqual({file.name for file in self.folder.iterdir()}, {"grains.png"})
+
+
+# Columns, rows, radius in pixels, in a picture of 104 x 100.
+CIRCLES = np.array([(28.3, 30.1, 17.2), (75.4, 66.7, 22.9), (80.2, 22.3, 15.6), (24.7, 74.2, 14.1)])
+ACROSS_SIDES = np.array([(3.0, 50.2, 20.3), (60.2, 2.4, 21.1)])
+COLUMNS, ROWS = 104, 100
+
+
+def outside(circles, x, periodic=False):
+    """Distance of points [.., 2] from the nearest circle, negative inside it; pixels."""
+    apart = x[..., None, :] - circles[:, :2]
+    if periodic:
+        apart -= np.array([COLUMNS, ROWS]) * np.round(apart / (COLUMNS, ROWS))
+    distance = np.hypot(apart[..., 0], apart[..., 1]) - circles[:, 2]
+    return np.take_along_axis(distance, np.abs(distance).argmin(-1)[..., None], -1)[..., 0]
+
+
+def photograph(circles, width, periodic=False):
+    """Grey [rows][columns] 0 to 255 of white discs whose edges go from white to black within `width` pixels; 0 is
+    black and white."""
+    row, column = np.mgrid[0:ROWS, 0:COLUMNS]
+    inside = -outside(circles, np.stack([column + 0.5, ROWS - row - 0.5], -1), periodic)
+    grey = np.clip(0.5 + inside / width, 0, 1) if width else 1.0 * (inside >= 0)
+    return np.round(255 * grey).astype(int).tolist()
+
+
+class Contours(Drawing):
+    """Squares fitted to the contours of pictures of discs."""
+
+    def contour(self, grey, **changes):
+        """Fits a picture: the run's report, the places [.., 2] of the nodes on the interface and its length, pixels."""
+        (self.folder / "discs.png").write_bytes(png(grey))
+        self.said = self.draw(DISCS, **{**CONTOUR, "image_file": "discs.png", **changes})
+        mesh, beside = self.read_mesh(), {}
+        for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
+            for cell, tag in zip(block.data, tags) if block.type in ("triangle", "quad") else ():
+                for edge in zip(cell, np.roll(cell, -1)):
+                    beside.setdefault(tuple(sorted(edge)), set()).add(tag)
+        edges = np.array([edge for edge, tags in beside.items() if len(tags) == 2])
+        x = mesh.points[:, :2] / CONTOUR["image_pixel"]
+        length = np.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1).sum()
+        return yaml.safe_load((self.folder / "out" / "morphology.yaml").read_text())["run"], x[np.unique(edges)], length
+
+    def check_fraction(self, report, circles):
+        fraction = report["fraction"]["inclusion"]
+        self.assertAlmostEqual(fraction, report["pixel_fraction"], delta=1e-4)
+        self.assertAlmostEqual(fraction, np.pi * (circles[:, 2]**2).sum() / (ROWS * COLUMNS), delta=1e-3)
+
+    def test_edges_in_grey(self):
+        report, x, length = self.contour(photograph(CIRCLES, 2))
+        self.check_fraction(report, CIRCLES)
+        self.assertLess(np.abs(outside(CIRCLES, x)).max(), 0.1)
+        self.assertAlmostEqual(length / (2 * np.pi * CIRCLES[:, 2].sum()), 1, delta=2e-3)
+        self.assertEqual(report["unresolved"], 0)
+        # Two pixels are a cell, and the step is what the grid has at drawn discs.
+        self.assertIn("52 columns and 50 rows of cells", self.said)
+        self.assertGreater(report["step_length"], 0.35 * report["median_step_length"])
+        self.assertGreater(report["smallest_angle"], 18)
+
+    def test_black_and_white(self):
+        """Where the edges of pixels are 4/pi of the circle's length."""
+        report, x, length = self.contour(photograph(CIRCLES, 0), image_median=1)
+        self.check_fraction(report, CIRCLES)
+        self.assertLess(np.abs(outside(CIRCLES, x)).max(), 0.75)
+        self.assertAlmostEqual(length / (2 * np.pi * CIRCLES[:, 2].sum()), 1, delta=0.03)
+
+    def test_across_periodic_sides(self):
+        report, x, _ = self.contour(photograph(ACROSS_SIDES, 2, periodic=True), periodic="xy")
+        self.check_fraction(report, ACROSS_SIDES)
+        self.assertLess(np.abs(outside(ACROSS_SIDES, x, periodic=True)).max(), 0.1)
+
+    def test_despeckled(self):
+        grey = photograph(CIRCLES, 2)
+        clean = self.contour(grey)
+        for row, column, value in ((50, 48, 255), (50, 49, 255), (33, 75, 0)):
+            grey[row][column] = value
+        spotted = self.contour(grey, image_despeckle=4)
+        self.assertEqual(clean[0]["fraction"], spotted[0]["fraction"])
+        self.assertEqual(clean[1].tolist(), spotted[1].tolist())
+        self.assertGreater(spotted[0]["despeckled"], 0)
+
+    def test_a_band_thinner_than_a_cell_is_counted(self):
+        grey = photograph(CIRCLES, 2)
+        grey[48] = grey[49] = [255] * COLUMNS
+        report, _, _ = self.contour(grey, size=6e-6)
+        self.assertGreater(report["unresolved"], 5)
+        self.assertIn(f"too coarse for the grid in {report['unresolved']} places", self.said)
+        self.assertEqual(self.contour(grey, size=1e-6)[0]["unresolved"], 0)
 
 
 class InSlide(Drawing):

@@ -10,7 +10,7 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
-from drawing import DISCS, FILES, GRAINS, GRID, IMAGE, LAYERS, SQUARE, Drawing, families, png
+from drawing import CONTOUR, DISCS, FILES, GRAINS, GRID, IMAGE, LAYERS, SQUARE, Drawing, families, png
 from running import arguments_of, snapshot
 
 RANKS = int(os.environ.get("SLIPSCALE_RANKS", "1"))
@@ -152,7 +152,18 @@ MISTAKES = {
     "angle in a structured mesh": idle("worst_angle", 20, "with -structured", **GRID),
     "discs in a homogeneous block": idle("fraction", 0.2, "with -shape none", **GRID),
     "gap of a laminate": idle("gap", 1e-4, "with -shape laminate", **LAYERS),
-    "size of a picture": idle("size", 1e-4, "with -shape image", **IMAGE),
+    "size of a picture": idle("size", 1e-4, "with -shape image", "give -cell grid", **IMAGE),
+    "triangles of a picture": idle("cell", "triangle", "whose pixels are the cells", "give -cell grid", **IMAGE),
+    "contour's width": idle("block_width", 1e-4, "with -shape image", **CONTOUR),
+    "contour's edges": idle("size_surface", 1e-6, "with -cell grid", **CONTOUR),
+    "contours of three regions": Mistake(["-image_levels gives 2 levels", "leave out -cell grid"],
+                                         {**CONTOUR, "image_levels": "0.3,0.6", "image_regions": "a,b,c"}),
+    "contour coarser than the picture": Mistake(["-size 2e-05 is more than the height of the picture (1.2e-05 m)"],
+                                                {**CONTOUR, "size": 2e-5}),
+    "contour coarser than the period": Mistake(["-size 6e-06 leaves fewer than three cells"],
+                                               {**CONTOUR, "size": 6e-6, "periodic": "x"}),
+    "contour lost between the nodes": Mistake(["-size 2e-06 is too coarse for the picture", "0.500 of the pixels",
+                                               "give a smaller one"], CONTOUR),
     "width of a picture": idle("block_width", 1e-4, "with -shape image", **IMAGE),
     "fraction and diameter of an array": Mistake(["-fraction contradicts -diameter"], {**SQUARE, "diameter": 1e-3}),
     # Numbers and words

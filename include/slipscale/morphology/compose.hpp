@@ -17,13 +17,17 @@ struct Composed {
   std::vector<double> drawn_area;  ///< of each inclusion or layer in the block, m²
   CompositeMesh mesh;
   MeshQuality quality;
-  std::array<int, 2> grid{};  ///< columns and rows of a grid, fitted or not; zero in other meshes
-  int squeezed = 0;           ///< edges of a fitted grid between two interfaces less than a cell apart
-  int blunted = 0;            ///< its nodes on the sides where an interface cuts too flat for it
-  int relieved = 0;           ///< moves of its nodes near the sides of the block for a longer step
-  bool coloured = false;      ///< the picture's levels are the luma of its colours
-  long filtered = 0;          ///< pixels of the picture that the median filter brought to another region
-  long despeckled = 0;        ///< and those of small islands after it
+  std::array<int, 2> grid{};    ///< columns and rows of a grid, fitted or not; zero in other meshes
+  int squeezed = 0;             ///< edges of a fitted grid between two interfaces less than a cell apart
+  int blunted = 0;              ///< its nodes on the sides where an interface cuts too flat for it
+  int relieved = 0;             ///< moves of its nodes near the sides of the block for a longer step
+  std::array<int, 2> pixels{};  ///< columns and rows of the picture
+  int unresolved = 0;           ///< edges of a grid fitted to it with two interfaces, left out there
+  double pixel_fraction = 0;    ///< of the pixels in its bright region, of that grid
+  double level_shift = 0;       ///< of the grey level, that gives the grid this fraction
+  bool coloured = false;        ///< the picture's levels are the luma of its colours
+  long filtered = 0;            ///< pixels of the picture that the median filter brought to another region
+  long despeckled = 0;          ///< and those of small islands after it
   /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
   /// cells.
   int moved = 0, redrawn = 0, dropped = 0;
