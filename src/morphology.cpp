@@ -29,7 +29,7 @@ bool make_folder(const std::string& folder) {
 
 void make(const Recipe& recipe, const Options& options, const std::string& folder) {
   const FolderLock lock(folder);
-  constexpr double many = 3e5;  // take longer than people wait without a word
+  constexpr double many = 1e5;  // take longer than people wait without a word
   if (const double cells = expected_cells(recipe); cells > many)
     print(format("some {:.2g} cells are drawn and meshed\n", cells));
   GmshModel gmsh;
