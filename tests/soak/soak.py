@@ -78,7 +78,7 @@ def said(err):
 
 def own(err):
     """What slide said, if its launcher said no more than that it passes a signal on."""
-    return "" if err.startswith("mpirun: Forwarding signal") else err
+    return "" if re.match(r"mpi(run|exec): Forwarding signal", err) else err
 
 
 class Soak:
