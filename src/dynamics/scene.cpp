@@ -134,6 +134,16 @@ StiffnessKernel read_kernel(const Options& options) {
   return kernel;
 }
 
+long steps_to(double end, double step, const std::string& cure) {
+  const double count = std::ceil(end / step * (1 - 1e-12));
+  if (!(count <= most_steps))  // nor is it a number where the step is next to nothing
+    throw UserError(
+        format("-time_end is {:g} s, which takes {:g} steps of {:g} s; a run has at most {:g} steps", end,
+               count, step, most_steps) +
+        cure);
+  return static_cast<long>(count);
+}
+
 TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time) {
   TimeStep choice;
   choice.frequency = largest_frequency(comm, model);
@@ -154,15 +164,10 @@ TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, cons
         format("-time_step is {} s, above the stable step of {:.6g} s for this mesh, beta2 and damping; "
                "use at most {:.4g} or auto",
                apart_from(choice.limit, choice.step, 6), choice.limit, 0.99 * choice.limit));
-  const double count = std::ceil(time.end / choice.step * (1 - 1e-12));
-  if (!(count <= most_steps))  // nor is it a number where the step is next to nothing
-    throw UserError(
-        format("-time_end is {:g} s, which takes {:g} steps of {:g} s; a run has at most {:g} steps",
-               time.end, count, choice.step, most_steps) +
-        (time.step ? ", so give a longer -time_step, or auto"
-                   : "; where the step is far too short, look for the cause in the materials, in "
-                     "-damping_stiffness or in the unit of the mesh"));
-  choice.count = static_cast<long>(count);
+  choice.count = steps_to(time.end, choice.step,
+                          time.step ? ", so give a longer -time_step, or auto"
+                                    : "; where the step is far too short, look for the cause in the "
+                                      "materials, in -damping_stiffness or in the unit of the mesh");
   return choice;
 }
 

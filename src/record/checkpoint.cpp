@@ -1,7 +1,6 @@
 #include "slipscale/record/checkpoint.hpp"
 
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -152,7 +151,7 @@ void Restart::check(const Mesh& mesh, const std::vector<Material>& materials) co
 TimeStep Restart::time_step(double end) const {
   TimeStep time = position_.time_step();
   const long own = time.count;
-  time.count = static_cast<long>(std::ceil(end / time.step * (1 - 1e-12)));
+  time.count = steps_to(end, time.step, ", so give an earlier -time_end");
   if (time.count < own)
     throw UserError(
         format("-time_end is {:g} s, but the run in '{}' goes to {:g} s; a restart can only go further", end,

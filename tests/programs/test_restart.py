@@ -195,6 +195,7 @@ class Refusals(InBlock):
             ("-damping_mass", "3"): ("-damping_mass is 3", "'out' has 0"),
             ("-boundary_left_x", "fixed"): ("-boundary_left_x is fixed", "'out' has none"),
             ("-output_folder", "elsewhere"): ("-output_folder is elsewhere", "has out"),
+            ("-time_end", "1e300"): ("-time_end is 1e+300 s, which takes", "give an earlier -time_end"),
             ("-nonsense", "3"): ("-nonsense is not an option of slide",),
             ("-time_end", "5e-7"): ("-time_end is 5e-07 s", "can only go further"),
         }.items():

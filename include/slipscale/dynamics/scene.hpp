@@ -46,6 +46,10 @@ struct TimeStep {
   FrequencyBounds frequency;
 };
 
+/// How many steps it takes to the end; times in s. Throws UserError, with `cure` at its end, for more than a
+/// run has.
+long steps_to(double end, double step, const std::string& cure);
+
 /// Chooses the step, or checks the given one. Throws UserError when it is above the stability limit.
 /// Collective.
 TimeStep choose_step(MPI_Comm comm, const Model& model, const Scene& scene, const TimeChoice& time);

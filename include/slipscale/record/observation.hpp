@@ -40,8 +40,8 @@ struct PlateReading {
   PlateMotion momentum{};  ///< of the plate alone, kg/s and kg m/s
 };
 
-/// What is measured at t_n; on rank 0, the same bits on any number of ranks but for the energies, which are
-/// sums over the bulk and are known on every rank.
+/// What is measured at t_n, the same bits on any number of ranks; on rank 0, energies and momenta on every
+/// rank.
 struct Observation {
   double time = 0;  ///< s
   long step = 0;
