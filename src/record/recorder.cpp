@@ -11,7 +11,6 @@
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
 #include "slipscale/base/yaml_text.hpp"
-#include "slipscale/files/disk_space.hpp"
 #include "slipscale/record/stress_measures.hpp"
 #include "slipscale/solid/stress.hpp"
 #include "summary.hpp"
@@ -87,11 +86,10 @@ long contact_cadence(const RunPosition& before, const TimeStep& time) {
   return before.contact_every > 0 ? static_cast<long>(before.contact_every) : std::max(1L, time.count / 1000);
 }
 
-/// Whether the force of every step is kept beside sparser rows; a run whose rows have become sparser has not
-/// kept it from the start.
-bool records_force(const RunPosition& before, long history_every) {
-  return history_every > 1 &&
-         (before.history_every == 0 || before.history_every == static_cast<double>(history_every));
+/// Whether the force of every step is kept beside rows that are sparser: from the start on, or not at all.
+bool keeps_force(const RunPosition& before, long history_every, bool goes_on) {
+  if (history_every <= 1) return false;
+  return !goes_on || (before.force_kept != 0 && before.history_every == static_cast<double>(history_every));
 }
 
 /// Start, process and a clock's last digits. Collective.
@@ -133,7 +131,8 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       window_(window_of(choice, time, restart)),
       observer_(body, choice.momentum),
       probes_(body.comm(), body.model(), choice.points),
-      force_(body, records_force(position_, history_every_) ? observer_.measured() : -1, time.count),
+      keeps_force_(keeps_force(position_, history_every_, restart != nullptr)),
+      force_(body, keeps_force_ ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run()),
       compliance_(compliances(body.model().materials)),
       progress_(choice.progress, restart ? static_cast<double>(restart->steps_done()) * time.step : 0,
@@ -174,27 +173,6 @@ void Recorder::open_files(const Restart* restart) {
       series->about("mesh_checksum", checksum);
       series->about("run", run_);
     }
-}
-
-/// What the steps before the restart left, from the checkpoint and from the rows of history.h5.
-void Recorder::go_on(const Restart& restart) {
-  std::vector<StateGroup> groups;
-  if (statistics_) groups = statistics_->state();
-  const bool recorded = records_force(position_, history_every_);
-  if (recorded) groups.push_back(force_.state(restart.steps_done() - 1));
-  restart.read(groups);
-  if (statistics_) statistics_->resume();
-  if (recorded) force_.resume();
-  last_sound_ = static_cast<long>(position_.last_sound);
-  last_frame_ = static_cast<long>(position_.last_frame);
-  largest_residual_ = position_.largest_residual;
-  if (history_) rows_ = history_->rows_so_far();
-  if (position_.history_every != static_cast<double>(history_every_))
-    position_.even_from = position_.history_rows;
-  std::string refusal;
-  if (history_) refusal = history_->series().refusal();
-  if (contact_ && refusal.empty()) refusal = contact_->series().refusal();
-  throw_together(body_.comm(), refusal);
 }
 
 bool Recorder::fields_due(long n) const {
@@ -256,56 +234,6 @@ void Recorder::record_cells(long n) {
     last_frame_ = n;
   }
   if (sample) statistics_->add(body_.time(), stress_, strain_);
-}
-
-std::vector<StateGroup> Recorder::state(long n) {
-  const auto on_cadence = [&](double rows, long every) {
-    return rows - (n == last_ && n % every != 0 ? 1 : 0);
-  };
-  RunPosition& at = position_;
-  at.set_time_step(time_);
-  at.history_every = static_cast<double>(history_every_);
-  at.contact_every = has_contact_ ? static_cast<double>(contact_every_) : 0;
-  at.fields_every = fields_every_ ? static_cast<double>(*fields_every_) : 0;
-  if (window_) {
-    at.window_first = static_cast<double>(window_->first);
-    at.window_last = static_cast<double>(window_->last);
-    at.window_every = static_cast<double>(window_->every);
-  }
-  // The last row of a run may lie between the others; a run that goes further has no row there.
-  if (history_) at.history_rows = on_cadence(static_cast<double>(history_->series().rows()), history_every_);
-  if (contact_) at.contact_rows = on_cadence(static_cast<double>(contact_->series().rows()), contact_every_);
-  if (fields_) {
-    at.frames = static_cast<double>(fields_->frames());
-    if (fields_every_) at.frames = on_cadence(at.frames, *fields_every_);
-  }
-  at.last_sound = static_cast<double>(last_sound_);
-  at.last_frame = static_cast<double>(last_frame_);
-  at.largest_residual = largest_residual_;
-  RunPosition written = at;
-  written.seconds = seconds();
-  written_ = written;
-  std::vector<StateGroup> groups{written_.state(is_root(body_.comm()))};
-  if (statistics_)
-    for (StateGroup& group : statistics_->state()) groups.push_back(std::move(group));
-  if (records_force(position_, history_every_)) groups.push_back(force_.state(n));
-  return groups;
-}
-
-void Recorder::sync() {
-  for (SeriesFile* series :
-       {history_ ? &history_->series() : nullptr, contact_ ? &contact_->series() : nullptr})
-    if (series) series->flush();
-  share_faults();
-  write_together(body_.comm(), folder_.path(), [&] {
-    if (history_) sync_file(folder_.path("history.h5"));
-    if (contact_) sync_file(folder_.path("contact.h5"));
-    if (history_ && fields_) sync_file(folder_.path("fields.h5"));
-  });
-}
-
-double Recorder::seconds() const {
-  return position_.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void Recorder::check(const Observation& seen) const {

@@ -39,6 +39,7 @@ StateGroup RunPosition::state(bool keeps) {
   add("last_frame_step", "1", "whose frame was written", last_frame);
   add("largest_residual", "1", "of the energy balance, of what flowed", largest_residual);
   add("even_rows_from", "1", "row of history.h5 from which on rows are evenly spaced", even_from);
+  add("force_kept", "1", "1 when /force_record is complete", force_kept);
   add("seconds", "s", "of the steps and their output", seconds);
   return group;
 }

@@ -178,6 +178,9 @@ class Sparser(InBlock):
         fields = datasets(self.folder / "out" / "fields.h5")
         np.testing.assert_allclose(fields["time"] / 2e-9, [*range(0, 1000, 100), *range(1000, 2001, 500)])
         self.assertGreaterEqual(self.summary("out")["averages_from"], 1000 * 2e-9)
+        # And once more, when nothing has kept what the first half of the run would have needed.
+        outcome = self.slide("-restart", "out", "-time_end", 4.2e-6, ranks=2)
+        self.assertEqual((outcome.codes, outcome.err), ([0, 0], ""), outcome.out)
 
 
 class Refusals(InBlock):

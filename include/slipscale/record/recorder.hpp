@@ -88,6 +88,7 @@ class Recorder {
   const std::optional<StatisticsWindow> window_;
   Observer observer_;
   Probes probes_;
+  const bool keeps_force_;  ///< whether `force_` records
   ForceRecord force_;
   OutputFolder folder_;                   ///< below all that may refuse the scene: an older run is kept then
   std::unique_ptr<HistoryFile> history_;  ///< on rank 0

@@ -1,0 +1,80 @@
+// The part of Recorder that says where a run stands, and goes on from there.
+#include "slipscale/base/parallel.hpp"
+#include "slipscale/files/disk_space.hpp"
+#include "slipscale/record/recorder.hpp"
+
+namespace slipscale {
+
+/// What the steps before the restart left, from the checkpoint and from the rows of history.h5.
+void Recorder::go_on(const Restart& restart) {
+  std::vector<StateGroup> groups;
+  if (statistics_) groups = statistics_->state();
+  const bool recorded = keeps_force_;
+  if (recorded) groups.push_back(force_.state(restart.steps_done() - 1));
+  restart.read(groups);
+  if (statistics_) statistics_->resume();
+  if (recorded) force_.resume();
+  last_sound_ = static_cast<long>(position_.last_sound);
+  last_frame_ = static_cast<long>(position_.last_frame);
+  largest_residual_ = position_.largest_residual;
+  if (history_) rows_ = history_->rows_so_far();
+  if (position_.history_every != static_cast<double>(history_every_))
+    position_.even_from = position_.history_rows;
+  std::string refusal;
+  if (history_) refusal = history_->series().refusal();
+  if (contact_ && refusal.empty()) refusal = contact_->series().refusal();
+  throw_together(body_.comm(), refusal);
+}
+
+std::vector<StateGroup> Recorder::state(long n) {
+  const auto on_cadence = [&](double rows, long every) {
+    return rows - (n == last_ && n % every != 0 ? 1 : 0);
+  };
+  RunPosition& at = position_;
+  at.set_time_step(time_);
+  at.history_every = static_cast<double>(history_every_);
+  at.contact_every = has_contact_ ? static_cast<double>(contact_every_) : 0;
+  at.fields_every = fields_every_ ? static_cast<double>(*fields_every_) : 0;
+  if (window_) {
+    at.window_first = static_cast<double>(window_->first);
+    at.window_last = static_cast<double>(window_->last);
+    at.window_every = static_cast<double>(window_->every);
+  }
+  // The last row of a run may lie between the others; a run that goes further has no row there.
+  if (history_) at.history_rows = on_cadence(static_cast<double>(history_->series().rows()), history_every_);
+  if (contact_) at.contact_rows = on_cadence(static_cast<double>(contact_->series().rows()), contact_every_);
+  if (fields_) {
+    at.frames = static_cast<double>(fields_->frames());
+    if (fields_every_) at.frames = on_cadence(at.frames, *fields_every_);
+  }
+  at.last_sound = static_cast<double>(last_sound_);
+  at.last_frame = static_cast<double>(last_frame_);
+  at.largest_residual = largest_residual_;
+  at.force_kept = keeps_force_ ? 1 : 0;
+  RunPosition written = at;
+  written.seconds = seconds();
+  written_ = written;
+  std::vector<StateGroup> groups{written_.state(is_root(body_.comm()))};
+  if (statistics_)
+    for (StateGroup& group : statistics_->state()) groups.push_back(std::move(group));
+  if (keeps_force_) groups.push_back(force_.state(n));
+  return groups;
+}
+
+void Recorder::sync() {
+  for (SeriesFile* series :
+       {history_ ? &history_->series() : nullptr, contact_ ? &contact_->series() : nullptr})
+    if (series) series->flush();
+  share_faults();
+  write_together(body_.comm(), folder_.path(), [&] {
+    if (history_) sync_file(folder_.path("history.h5"));
+    if (contact_) sync_file(folder_.path("contact.h5"));
+    if (history_ && fields_) sync_file(folder_.path("fields.h5"));
+  });
+}
+
+double Recorder::seconds() const {
+  return position_.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+}  // namespace slipscale
