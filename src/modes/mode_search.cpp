@@ -17,6 +17,7 @@ constexpr int most_in_vain = 4;              ///< rounds without half the residu
 constexpr double of_largest = 1e-2;          ///< directions of less than this part of the residuals wait
 constexpr double of_column = 1e-5;           ///< of a new direction: what must be new of it
 constexpr double same = 1e-6;                ///< exponents that are one, relative
+constexpr double parallel = 0.9999;          ///< cosine of vectors that are one
 constexpr Eigen::Index most_unknowns = 750;  ///< of a companion matrix, for the second look
 
 bool is_number(const SlidingMode& mode) { return std::isfinite(std::norm(mode.exponent)); }
@@ -38,7 +39,8 @@ void find_again(MPI_Comm comm, const ReducedProblem& problem, const SlidingLaw& 
     SlidingMode& mode = modes[which[n]];
     const bool known = mode.vector.size() > 0;
     if (known) fill_up(mode.vector, problem.size());
-    const ReducedMode found = nearest_mode(problem, law, mode.exponent, mode.vector);
+    const ReducedMode found = nearest_mode(problem, law, mode.exponent, mode.vector,
+                                           known ? 0 : 0.37 * static_cast<double>(which[n]));
     mode.exponent = found.exponent;
     mode.vector = found.vector;
     if (mode.exponent.imag() >= 0) continue;
@@ -68,6 +70,15 @@ Columns main_directions(MPI_Comm comm, const Column& mass, const Columns& residu
 bool is_known(const std::vector<SlidingMode>& modes, Complex p) {
   return std::ranges::any_of(
       modes, [&](const SlidingMode& mode) { return std::abs(mode.exponent - p) <= same * std::abs(p); });
+}
+
+/// The same vector as well: more than one mode may have the same exponent.
+bool is_known(const std::vector<SlidingMode>& modes, const SlidingMode& found) {
+  return std::ranges::any_of(modes, [&](const SlidingMode& mode) {
+    const Eigen::Index size = std::min(mode.vector.size(), found.vector.size());
+    return std::abs(mode.exponent - found.exponent) <= same * std::abs(found.exponent) &&
+           std::abs(mode.vector.head(size).dot(found.vector.head(size))) > parallel;
+  });
 }
 
 double frequency_of(Complex p) { return p.imag() / (2 * std::numbers::pi); }
@@ -157,7 +168,7 @@ ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim&
     all.rounds += found.rounds;
     all.solves += found.solves;
     for (SlidingMode& mode : found.modes)
-      if (is_number(mode) && !is_known(all.modes, mode.exponent)) all.modes.push_back(std::move(mode));
+      if (is_number(mode) && !is_known(all.modes, mode)) all.modes.push_back(std::move(mode));
   }
   std::erase_if(all.modes, [&](const SlidingMode& mode) {
     return !is_vibration(mode.exponent) || frequency_of(mode.exponent) > aim.to;

@@ -201,11 +201,14 @@ void write_modes(MPI_Comm comm, const std::string& folder, const Mesh& mesh, con
   const MeshImage image(comm, mesh);
   const auto shown = std::min(static_cast<std::size_t>(shapes), report.modes.size());
   const double points = static_cast<double>(image.points().total()),
-               cells = static_cast<double>(image.cells().total()), vector = 3 * sizeof(double) * points,
-               rows = static_cast<double>(report.modes.size() * (4 * state.nodes.size() + 32)) * 8;
+               cells = static_cast<double>(image.cells().total()), vector = 3 * sizeof(double) * points;
+  std::size_t rows = report.modes.size() * (4 * static_cast<std::size_t>(state.in_contact + state.open) + 32);
+  for (const ModesSweep& sweep : report.sweeps)
+    rows += (3 * sweep.paths.size() + 1) * sweep.choice.values.size();
   SharedFile file(comm, folder + "/modes.h5",
                   mesh_bytes(points, cells) + vector * (1 + static_cast<double>(shown) * (frames + 2)) +
-                      rows + group_overhead * (20 + frames + static_cast<double>(shown)));
+                      static_cast<double>(rows * sizeof(double)) +
+                      group_overhead * (30 + frames + static_cast<double>(shown)));
   const MeshLayout layout = write_mesh(comm, file, image);
   write_spectrum(comm, file, report);
   write_contact(comm, file, mesh, report, state);

@@ -124,14 +124,30 @@ std::size_t worst_place(const std::vector<ModePath>& paths, double& worst) {
 
 double frequency_of(Complex p) { return p.imag() / (2 * std::numbers::pi); }
 
+bool is_growing(Complex p) {
+  constexpr double rounding = 1e-9;
+  return p.real() > rounding * std::abs(p);
+}
+
+/// Vectors in the basis of the modes without friction, of which all others are made where friction is weak.
+std::vector<Eigen::VectorXcd> real_vectors(const ModesBasis& basis, double to) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(basis.problem().stiffness);
+  constexpr double somewhat = 1.05;
+  std::vector<Eigen::VectorXcd> found;
+  for (Eigen::Index k = 0; k < basis.size(); ++k)
+    if (solver.eigenvalues()[k] <= std::pow(somewhat * 2 * std::numbers::pi * to, 2))
+      found.push_back(solver.eigenvectors().col(k).cast<Complex>());
+  return found;
+}
+
 void find_limits(ModesSweep& sweep, std::size_t n) {
   const auto& p = sweep.paths[n].exponent;
   const auto& values = sweep.choice.values;
   for (std::size_t k = 0; k + 1 < p.size(); ++k) {
-    if (!is_there(p[k]) || !is_there(p[k + 1]) || (p[k].real() > 0) == (p[k + 1].real() > 0)) continue;
-    const double part = p[k].real() / (p[k].real() - p[k + 1].real());
+    if (!is_there(p[k]) || !is_there(p[k + 1]) || is_growing(p[k]) == is_growing(p[k + 1])) continue;
+    const double part = std::clamp(p[k].real() / (p[k].real() - p[k + 1].real()), 0.0, 1.0);
     sweep.limits.push_back({n, values[k] + part * (values[k + 1] - values[k]),
-                            frequency_of(p[k] + part * (p[k + 1] - p[k])), p[k + 1].real() > 0});
+                            frequency_of(p[k] + part * (p[k + 1] - p[k])), is_growing(p[k + 1])});
   }
 }
 
@@ -178,7 +194,7 @@ ModesSweep sweep_modes(ModesBasis& basis, const Scene& scene, const SweepChoice&
   };
   for (const std::size_t at : {count - 1, count / 2, std::size_t{0}}) find(at);
   while (!anchors.empty()) {
-    std::vector<Eigen::VectorXcd> vectors;
+    std::vector<Eigen::VectorXcd> vectors = real_vectors(basis, aim.to);
     for (Anchor& anchor : anchors) {
       anchor.mode.vector.conservativeResizeLike(Eigen::VectorXcd::Zero(basis.size()));
       vectors.push_back(anchor.mode.vector);
@@ -220,7 +236,7 @@ std::string describe(const ModesSweep& sweep) {
     for (const ModePath& path : sweep.paths) {
       const Complex p = path.exponent[k];
       if (!is_there(p)) continue;
-      growing += p.real() > 0;
+      growing += is_growing(p);
       if (!is_there(fastest) || p.real() > fastest.real()) fastest = p;
     }
     rows.push_back({format("{:.6g}", choice.values[k]), std::to_string(growing),

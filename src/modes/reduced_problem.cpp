@@ -49,13 +49,14 @@ std::vector<Complex> all_exponents(const ReducedProblem& problem, const SlidingL
 }
 
 ReducedMode nearest_mode(const ReducedProblem& problem, const SlidingLaw& law, Complex estimate,
-                         const Eigen::VectorXcd& start) {
+                         const Eigen::VectorXcd& start, double seed) {
   ReducedMode mode{estimate, start};
   if (start.size() == 0) {
     mode.vector.resize(problem.size());  // any, but the same every time
-    for (Eigen::Index k = 0; k < problem.size(); ++k)
-      mode.vector[k] = {std::sin(12.9898 * static_cast<double>(k) + 1),
-                        std::sin(78.233 * static_cast<double>(k) + 2)};
+    for (Eigen::Index k = 0; k < problem.size(); ++k) {
+      const double n = static_cast<double>(k) + seed;
+      mode.vector[k] = {std::sin(12.9898 * n + 1), std::sin(78.233 * n + 2)};
+    }
     // Apart from p by so little that N stays regular, and the nearest vector prevails.
     const Complex beside = estimate * (1.0 + 1e-9);
     const Eigen::PartialPivLU<Eigen::MatrixXcd> inverse(problem.matrix(law, beside));

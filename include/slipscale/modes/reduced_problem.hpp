@@ -28,8 +28,9 @@ struct ReducedProblem {
 std::vector<Complex> all_exponents(const ReducedProblem& problem, const SlidingLaw& law);
 
 /// The pair next to an estimate, by Newton's method on N(p) y = 0; without a vector to start from, from one
-/// that inverse iteration finds. p is not a number where that does not converge.
+/// that inverse iteration finds, which differs with `seed` where more than one belongs to p. p is not a
+/// number where that does not converge.
 ReducedMode nearest_mode(const ReducedProblem& problem, const SlidingLaw& law, Complex estimate,
-                         const Eigen::VectorXcd& start = {});
+                         const Eigen::VectorXcd& start = {}, double seed = 0);
 
 }  // namespace slipscale

@@ -1,0 +1,90 @@
+"""What `modes` says and writes: the same on any number of ranks, and of a sweep the same as one by one."""
+
+import math
+import unittest
+
+import h5py
+import meshio
+from running import datasets
+from scenes import block
+from squealing import FILES, RUN, Squealing
+
+
+class Modes(Squealing):
+    def setUp(self):
+        super().setUp()
+        block(self.folder / "block.msh")
+
+    def assert_same(self, one, other, tolerance):
+        for a, b in zip(one, other, strict=True):
+            size = math.hypot(2 * math.pi * a["frequency"], a["growth_rate"])
+            for quantity, unit in (("frequency", 2 * math.pi), ("growth_rate", 1)):
+                self.assertLess(abs(a[quantity] - b[quantity]) * unit, tolerance * size, (a, b))
+
+    def test_is_the_same_on_any_number_of_ranks(self):
+        _, one = self.run_modes(modes_scheme="true")
+        for ranks in (2, 3):
+            _, more = self.run_modes(modes_scheme="true", ranks=ranks, output_folder=f"out{ranks}")
+            self.assert_same(one["modes"], more["modes"], 1e-10)
+            self.assert_same([mode["scheme"] for mode in one["modes"]], [mode["scheme"] for mode in more["modes"]],
+                             1e-10)
+            self.assertEqual(one["state"]["nodes_in_contact"], more["state"]["nodes_in_contact"])
+
+    def test_names_what_has_no_meaning(self):
+        said, _ = self.run_modes()
+        (note,) = [line for line in said.splitlines() if line.startswith("note: no meaning in modes")]
+        for option in ("history_every", "history_points", "time_end", "boundary_top_ramp"):
+            self.assertIn("-" + option, note)
+        self.assertNotIn("-friction", note)
+
+    def test_growth_is_the_work_of_friction_less_that_of_damping(self):
+        """Over a period: 2 Re p of the energy, and damping takes b ω² of the strain energy's mean, half of it all."""
+        _, found = self.run_modes()
+        for mode in found["modes"]:
+            omega = 2 * math.pi * mode["frequency"]
+            balance = sum(mode["friction_work"].values()) - 2 * math.pi * RUN["damping_stiffness"] * omega / 2 * 2
+            self.assertAlmostEqual(balance, 4 * math.pi * mode["growth_rate"] / omega, delta=0.02)
+
+    def test_without_friction_damping_is_all(self):
+        """Of a real mode: p = −bω²/2 ± iω√(1 − (bω/2)²)."""
+        _, found = self.run_modes(friction_coefficient=0)
+        for mode in found["modes"]:
+            omega = math.hypot(2 * math.pi * mode["frequency"], mode["growth_rate"])
+            self.assertAlmostEqual(mode["growth_rate"] / (-RUN["damping_stiffness"] * omega**2 / 2), 1, delta=1e-8)
+
+    def test_sweep_holds_the_modes_of_each_value(self):
+        said, swept = self.run_modes(modes_coefficient="0:0.05:0.6")
+        self.assertIn("sweep of coefficient", said)
+        sweep = swept["sweeps"]["coefficient"]
+        self.assertEqual(len(sweep["values"]), 13)
+        for at in (3, 7, 10):
+            _, alone = self.run_modes(friction_coefficient=sweep["values"][at], output_folder="alone")
+            for mode in alone["modes"][:3]:
+                size = math.hypot(2 * math.pi * mode["frequency"], mode["growth_rate"])
+                nearest = min(math.hypot(2 * math.pi * (path["frequency"][at] - mode["frequency"]),
+                                         path["growth_rate"][at] - mode["growth_rate"]) for path in sweep["paths"])
+                self.assertLess(nearest, 1e-6 * size, (at, mode))
+        for limit in sweep["becomes_unstable"]:
+            self.assertLessEqual(limit["value"], 0.6)
+
+    def test_files(self):
+        self.run_modes(modes_time="2e-7:2e-7:1e-6", modes_shapes=2, modes_frames=4)
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir()}, FILES)
+        found = datasets(self.folder / "out" / "modes.h5")
+        self.assertEqual(found["spectrum/frequency"].shape, (5,))
+        self.assertEqual(found["sweep/time/growth_rate"].shape[1], 5)
+        self.assertEqual(found["contact/normal_real"].shape, (5, len(found["contact/x"])))
+        real, imaginary = found["shape/mode_1/real"], found["shape/mode_1/imaginary"]
+        self.assertEqual(abs(found["frames/00001/mode_1"] + imaginary).max(), 0)  # a quarter of a period on
+        self.assertEqual(abs(found["frames/00000/mode_1"] - real).max(), 0)
+        with h5py.File(self.folder / "out" / "modes.h5") as file:
+            file.visititems(lambda name, item: self.assertTrue(
+                isinstance(item, h5py.Group) or {"units", "description"} <= set(item.attrs), name))
+        with meshio.xdmf.TimeSeriesReader(self.folder / "out" / "modes.xdmf") as reader:
+            reader.read_points_cells()
+            self.assertEqual(reader.num_steps, 4)
+            self.assertIn("mode_2", reader.read_data(3)[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
