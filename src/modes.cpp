@@ -9,6 +9,7 @@
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/modes/modes_choice.hpp"
+#include "slipscale/modes/modes_file.hpp"
 #include "slipscale/modes/sliding_modes.hpp"
 #include "slipscale/record/record_choice.hpp"
 
@@ -109,6 +110,7 @@ void modes(Options& options) {
   // Only now do the files of an older run give way.
   const OutputFolder folder(comm, choice.folder, {"modes.yaml", "modes.h5", "modes.xdmf"});
   measure_costs(comm, report);
+  write_modes(comm, folder.path(), mesh, report, state, choice.shapes, choice.frames);
   folder.write_text("modes.yaml", modes_yaml(report, state, mesh, options.effective()));
   print_notes(report.search.notes);
   print(describe(report, state));

@@ -13,11 +13,11 @@ namespace slipscale {
 namespace {
 
 constexpr int most_rounds = 40;
-constexpr int most_in_vain = 4;               ///< rounds without half the residual
-constexpr double of_largest = 1e-2;           ///< directions of less than this part of the residuals wait
-constexpr double of_column = 1e-5;            ///< of a new direction: what must be new of it
-constexpr double same = 1e-6;                 ///< exponents that are one, relative
-constexpr Eigen::Index most_unknowns = 1200;  ///< of a companion matrix, for the second look
+constexpr int most_in_vain = 4;              ///< rounds without half the residual
+constexpr double of_largest = 1e-2;          ///< directions of less than this part of the residuals wait
+constexpr double of_column = 1e-5;           ///< of a new direction: what must be new of it
+constexpr double same = 1e-6;                ///< exponents that are one, relative
+constexpr Eigen::Index most_unknowns = 750;  ///< of a companion matrix, for the second look
 
 bool is_number(const SlidingMode& mode) { return std::isfinite(std::norm(mode.exponent)); }
 
@@ -69,6 +69,21 @@ bool is_known(const std::vector<SlidingMode>& modes, Complex p) {
 
 double frequency_of(Complex p) { return p.imag() / (2 * std::numbers::pi); }
 
+/// Growth descending; where it differs by rounding alone, as of modes that neither grow nor decay, frequency
+/// ascending, so that the order does not depend on the number of ranks.
+class Order {
+ public:
+  explicit Order(double to) : unit_(rounding * 2 * std::numbers::pi * to) {}
+  bool operator()(const Complex& a, const Complex& b) const {
+    const double one = std::round(a.real() / unit_), other = std::round(b.real() / unit_);
+    return one != other ? one > other : a.imag() < b.imag();
+  }
+
+ private:
+  static constexpr double rounding = 1e-8;
+  double unit_;
+};
+
 /// Exponents that are looked for, growth descending.
 std::vector<Complex> candidates(const ReducedProblem& problem, const SlidingLaw& law, double to) {
   static const LogEvent event("ModesCompanion");
@@ -79,7 +94,7 @@ std::vector<Complex> candidates(const ReducedProblem& problem, const SlidingLaw&
     const bool is_real = std::abs(p.imag()) <= 1e-9 * std::abs(p);
     return frequency_of(p) > to || (is_real && p.real() <= 0);
   });
-  std::ranges::sort(found, [](const Complex& a, const Complex& b) { return a.real() > b.real(); });
+  std::ranges::sort(found, Order(to));
   return found;
 }
 
@@ -143,9 +158,7 @@ ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim&
       if (is_number(mode) && !is_known(all.modes, mode.exponent)) all.modes.push_back(std::move(mode));
   }
   std::erase_if(all.modes, [&](const SlidingMode& mode) { return frequency_of(mode.exponent) > aim.to; });
-  std::ranges::sort(all.modes, [](const SlidingMode& a, const SlidingMode& b) {
-    return a.exponent.real() > b.exponent.real();
-  });
+  std::ranges::sort(all.modes, Order(aim.to), &SlidingMode::exponent);
   if (all.modes.size() > wanted) all.modes.resize(wanted);
   for (SlidingMode& mode : all.modes) fill_up(mode.vector, basis.size());
   for (const SlidingMode& mode : all.modes)
