@@ -63,6 +63,7 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
   straight_ = std::make_unique<StraightSides>(comm, model.mesh, scene.conditions, boundary_, *supports_,
                                               u_.data(), w_.data());
+  inverse_mass_.reserve(model.mass.size());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
   if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
   if (scene_.surface) set_contact_nodes();
@@ -70,8 +71,8 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
                 static_cast<int>(straight_->size()));
   start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
-  std::vector<double> work;
-  for (int i = 0; i < model.mesh.nodes.owned; ++i) work.push_back(gravity_work(i, u_.data()[i]));
+  std::vector<double> work(scene.body_acceleration != Vector2{} ? model.mass.size() : 0);
+  for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), u_.data()[i]);
   start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 

@@ -55,10 +55,10 @@ void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mes
   OwnedSF migration;
   OwnedDM parts;
   petsc(DMPlexDistribute(dm, 1, migration.put(), parts.put()));
-  mesh.dm = parts.get() ? std::move(parts) : std::move(dm);
-  petsc(DMGetCellCoordinatesLocalSetUp(mesh.dm));  // collective, so before the cells are looked at one by one
-  extract(comm, migrate(migration, mesh.dm, numbers(whole)), migrate(migration, mesh.dm, regions(whole)),
-          mesh);
+  if (parts.get()) dm = std::move(parts);
+  petsc(DMGetCellCoordinatesLocalSetUp(dm));  // collective, so before the cells are looked at one by one
+  petsc(DMViewFromOptions(dm, nullptr, "-dm_view_distributed"));
+  extract(comm, dm, migrate(migration, dm, numbers(whole)), migrate(migration, dm, regions(whole)), mesh);
   for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
     fill_boundary(numbered_sides(comm, whole, b), mesh.nodes, mesh.cells, whole.boundaries[b]);
   mesh.regions = std::move(whole.regions);
@@ -70,7 +70,6 @@ void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mes
   mesh.edge_rounding = whole.edge_rounding;
   mesh.nodes.total = whole.node_count;
   mesh.cells.total = whole.cell_count;
-  petsc(DMViewFromOptions(mesh.dm, nullptr, "-dm_view_distributed"));
 }
 
 }  // namespace slipscale::mesh_stages

@@ -44,6 +44,7 @@ MeshSource periodic_mesh_source(const Options& options) {
 
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   Mesh mesh;
+  mesh.comm = comm;
   mesh.file = source.file;
   mesh_stages::Whole whole = mesh_stages::load_whole(comm, source);
   mesh.checksum = whole.checksum;

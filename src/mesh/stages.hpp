@@ -59,9 +59,9 @@ void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& w
 /// Cuts the mesh with one layer of overlap and fills the plain arrays of `mesh`. Collective.
 void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mesh);
 
-/// Fills the plain arrays of `mesh` from its DMPlex. The whole-mesh number of each point and the region of
-/// each cell are by plex point. Collective.
-void extract(MPI_Comm comm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
+/// Fills the plain arrays of `mesh` from the DMPlex of the rank's part. The whole-mesh number of each point
+/// and the region of each cell are by plex point. Collective.
+void extract(MPI_Comm comm, DM dm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
              Mesh& mesh);
 
 /// An edge of a boundary, as every rank can find it: whole-mesh numbers of the cell beside it and of its

@@ -25,12 +25,14 @@ class Quartets {
   std::vector<double> values;
 
  private:
+  int place(const std::vector<double>& blocks);
+
   int count_;
   struct Kept {
     int first, last;
-    long values;
   };
-  std::unordered_map<std::uint64_t, Kept> known_;
+  std::unordered_map<std::uint64_t, Kept> known_;        ///< lists of links, by their digest
+  std::unordered_map<std::uint64_t, int> known_blocks_;  ///< places, by the digest of what stands there
 };
 
 }  // namespace slipscale

@@ -15,9 +15,7 @@ struct StiffnessKernel {
   Instructions instructions = widest_instructions();
 };
 
-template <class Scalar>
 struct AssembledPairs;
-template <class Scalar>
 class RowTerms;
 class TermLists;
 class Quartets;
@@ -86,13 +84,14 @@ class PairStiffness {
     int complete_begin = 0, complete_end = 0;  ///< owned nodes whose force is complete after it
   };
 
-  void lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
-               const std::vector<char>& gathered);
-  void add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists, Quartets& quartets);
-  void add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end, TermLists& lists,
+  void lay_out(const AssembledPairs& pairs, const RowTerms& rows, const std::vector<char>& gathered);
+  void add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists, Quartets& quartets);
+  void add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end, TermLists& lists,
                     Quartets& quartets);
-  void add_row(const AssembledPairs<Scalar>& pairs, int row, const std::vector<char>& gathered);
-  void complete_in_order(const AssembledPairs<Scalar>& pairs, const std::vector<char>& gathered);
+  bool visited(int node, const std::vector<char>& gathered) const { return node < owned_ && !gathered[node]; }
+  void reserve(const AssembledPairs& pairs, const std::vector<char>& gathered);
+  void add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered);
+  void complete_in_order(const AssembledPairs& pairs, const std::vector<char>& gathered);
   void visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
 
   int owned_ = 0, count_ = 0;
