@@ -65,7 +65,10 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
                                               u_.data(), w_.data());
   inverse_mass_.reserve(model.mass.size());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
-  if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
+  if (physics_.keeps_force())
+    previous_force_.assign(force_.size(), {0, 0});
+  else
+    passing_.resize(std::visit([](const auto& each) { return each.passing_size(); }, model.stiffness));
   if (scene_.surface) set_contact_nodes();
   ledger_.start(physics_, model.mesh.nodes.owned, boundary_.size(), contact_.size(),
                 static_cast<int>(straight_->size()));
@@ -123,12 +126,28 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
-  const BulkArrays arrays{
-      inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
+/// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
+/// in observed steps.
+void SlidingBody::free_motion(const StepCoefficients& step, bool observed) {
+  const BulkPhysics physics = observed ? keeping_acceleration(physics_) : physics_;
+  const BulkArrays arrays{inverse_mass_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
   const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
                         scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
-  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
+  if (observed || passing_.empty()) {
+    std::visit(
+        [&](const auto& stiffness) {
+          stiffness.multiply(u_.data(), force_.data(),
+                             [&](int begin, int end) { move(begin, end, force_.data()); });
+        },
+        model_.stiffness);
+    return;
+  }
+  auto next = boundary_.node.begin();
+  const auto move_passing = [&](int begin, int end, const Vector2* force) {
+    for (; next != boundary_.node.end() && *next < end; ++next) force_[*next] = force[*next];
+    move(begin, end, force);
+  };
+  std::visit([&](const auto& stiffness) { stiffness.multiply_passing(u_.data(), passing_, move_passing); },
              model_.stiffness);
 }
 
@@ -186,7 +205,7 @@ void SlidingBody::advance(bool observed) {
   {
     static const LogEvent event("StiffnessMotion");
     const LogEvent::Scope scope(event);
-    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
+    free_motion(step, observed);
   }
   {
     static const LogEvent event("LoadsSupports");

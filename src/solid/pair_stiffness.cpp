@@ -11,6 +11,9 @@ namespace {
 
 constexpr int rows_of_a_chunk = 256;
 
+/// What waits for its neighbours is moved to the front only every so many times that it has filled the room.
+constexpr std::size_t rooms_for_what_passes = 3;
+
 /// A run that vector instructions take at one stroke.
 constexpr int long_run = 4;
 
@@ -83,7 +86,9 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs& pairs, const RowTerms&
       add_row(pairs, row, gathered);
       if (pairs.node[row] < owned_) seen = pairs.node[row] + 1;
     }
-    if (first < seen && gathered[first]) add_gathered(rows, first, seen, lists, quartets);
+    chunk.gathered_begin = chunk.gathered_end = seen;
+    if (first < seen && gathered[first]) chunk.gathered_begin = first;
+    if (chunk.gathered_begin < seen) add_gathered(rows, first, seen, lists, quartets);
     chunk.rows_end = static_cast<int>(rows_.size());
     chunk.runs_end = static_cast<int>(runs_.size());
     chunk.quartets_end = static_cast<int>(quartets_.size());
@@ -208,6 +213,11 @@ void PairStiffness<Scalar>::complete_in_order(const AssembledPairs& pairs,
     while (complete < owned_ && last_reader[complete] <= k) ++complete;
     chunks_[k].complete_end = complete;
   }
+  if (gathered_ < owned_) return;
+  for (const Chunk& chunk : chunks_)
+    passing_size_ =
+        std::max(passing_size_, static_cast<std::size_t>(chunk.gathered_end - chunk.complete_begin));
+  passing_size_ *= rooms_for_what_passes;
 }
 
 template class PairStiffness<double>;
