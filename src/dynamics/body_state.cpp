@@ -11,7 +11,10 @@ StateGroup at_nodes(const std::string& name, const Nodes& nodes, const std::vect
   return group;
 }
 
-double* numbers(std::vector<Vector2>& rows) { return rows.empty() ? nullptr : rows[0].data(); }
+template <class Rows>
+double* numbers(Rows& rows) {
+  return rows.empty() ? nullptr : rows[0].data();
+}
 
 }  // namespace
 
@@ -29,7 +32,7 @@ std::vector<StateGroup> SlidingBody::state() {
   for (const int node : boundary_.node) carried_force_.push_back(force_[node]);
   StateGroup& of_force = physics_.keeps_force() ? nodes : boundary;
   of_force.arrays.push_back({"internal_force", "N/m", "K u at the beginning of the step", 2,
-                             numbers(physics_.keeps_force() ? force_ : carried_force_)});
+                             physics_.keeps_force() ? numbers(force_) : numbers(carried_force_)});
   StateGroup contact = at_nodes("contact_nodes", mesh, contact_.node);
   static_assert(sizeof(FrictionMemory) == 2 * sizeof(double));
   if (contact_.size() > 0)

@@ -1,5 +1,6 @@
 #include "slipscale/mesh/read.hpp"
 
+#include "slipscale/base/large_array.hpp"
 #include "stages.hpp"
 
 namespace slipscale {
@@ -50,6 +51,7 @@ Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   mesh.checksum = whole.checksum;
   mesh.notes = whole.notes;
   mesh_stages::distribute(comm, std::move(whole), source.partitioner, mesh);
+  give_back_freed();
   return mesh;
 }
 

@@ -103,10 +103,10 @@ class SlidingBody {
   const Scene scene_;
   const double time_step_;
   NodalVector u_, w_, v_, a_;
-  std::vector<Vector2> force_, previous_force_, kept_;
+  LargeArray<Vector2> force_, previous_force_, kept_;
   std::vector<Vector2>
       passing_;  ///< forces that only the free motion of their node asks for, see PairStiffness
-  std::vector<double> inverse_mass_;
+  LargeArray<double> inverse_mass_;
   const std::vector<std::string> boundary_names_;
   BoundaryNodes boundary_;
   Loads loads_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/solid/lanes.hpp"
 #include "slipscale/solid/material.hpp"
@@ -20,6 +21,7 @@ struct AssembledPairs;
 class RowTerms;
 class TermLists;
 class Quartets;
+struct QuartetDraft;
 
 /// The stiffness of a body as a graph of node pairs.
 ///
@@ -97,7 +99,7 @@ class PairStiffness {
   void lay_out(const AssembledPairs& pairs, const RowTerms& rows, const std::vector<char>& gathered);
   void add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists, Quartets& quartets);
   void add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end, TermLists& lists,
-                    Quartets& quartets);
+                    const Quartets& quartets, std::vector<QuartetDraft>& drafts);
   bool visited(int node, const std::vector<char>& gathered) const { return node < owned_ && !gathered[node]; }
   void reserve(const AssembledPairs& pairs, const std::vector<char>& gathered);
   void add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered);
@@ -110,15 +112,15 @@ class PairStiffness {
   std::size_t passing_size_ = 0;
   GatherRuns gather_runs_;
   GatherQuartets gather_quartets_;
-  std::vector<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
-  std::vector<int> high_;
-  std::vector<Block> blocks_;
+  LargeArray<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
+  LargeArray<int> high_;
+  LargeArray<Block> blocks_;
   std::vector<Skew> skews_;  ///< in the order of the pairs; a last one of no row closes the list
-  std::vector<Run> runs_;    ///< ascending, none across two chunks
+  LargeArray<Run> runs_;     ///< none across two chunks
   std::vector<Term> terms_;
-  std::vector<Quartet> quartets_;  ///< likewise
-  std::vector<Link> links_;
-  std::vector<double> values_;
+  LargeArray<Quartet> quartets_;
+  LargeArray<Link> links_;
+  LargeArray<double> values_;
   std::vector<Chunk> chunks_;
 };
 
