@@ -81,8 +81,7 @@ AssembledPairs<Scalar> assemble_pairs(const Mesh& mesh, const std::vector<Materi
   for (const Sum& sum : sums) {
     const double skew = 0.5 * (sum.xy - sum.yx);
     pairs.block.push_back({static_cast<Scalar>(sum.xx), static_cast<Scalar>(0.5 * (sum.xy + sum.yx)),
-                           static_cast<Scalar>(sum.yy),
-                           static_cast<Scalar>(std::abs(skew) > nothing * sum.size ? skew : 0)});
+                           static_cast<Scalar>(sum.yy), std::abs(skew) > nothing * sum.size ? skew : 0});
   }
   return pairs;
 }

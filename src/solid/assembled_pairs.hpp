@@ -12,8 +12,11 @@ namespace slipscale {
 template <class Scalar>
 struct AssembledPairs {
   /// K_ij with i the lower node: symmetric part, and the skew part, +skew in xy and −skew in yx.
+  /// Around a node the skew parts of a row cancel; rounded one by one they would not, and the force would
+  /// have no energy. So these few are kept in double precision whatever the others are.
   struct Block {
-    Scalar xx, xy, yy, skew;
+    Scalar xx, xy, yy;
+    double skew;
   };
   std::vector<int> node;     ///< [rows] local node
   std::vector<int> first;    ///< [rows + 1] where a row's pairs start

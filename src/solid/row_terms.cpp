@@ -38,7 +38,7 @@ void RowTerms<Scalar>::of(int node, std::vector<Term>& terms) const {
   const int begin = pairs_.first[row_of_[node]], end = pairs_.first[row_of_[node] + 1];
   for (int pair = begin; pair < end; ++pair) straight(pairs_.block[pair], pairs_.high[pair]);
   for (int pair = begin; pair < end; ++pair) {
-    const Scalar skew = pairs_.block[pair].skew;
+    const double skew = pairs_.block[pair].skew;
     if (skew != 0) terms.push_back({Lanes{}, Lanes{skew, -skew}, pairs_.high[pair] - node});
   }
 }
