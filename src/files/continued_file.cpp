@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 
+#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
@@ -34,7 +35,12 @@ Hdf5File open_to_continue(const std::string& path) {
   require(std::filesystem::exists(path, error), "it is not there");
   recover_file(path, true);
   require(H5Fis_hdf5(path.c_str()) > 0, "it is no HDF5 file or damaged");
-  Hdf5File file = open_file_to_write(path);
+  Hdf5File file;
+  try {
+    file = open_file_to_write(path);
+  } catch (const LibraryError&) {  // in words of HDF5's inside
+    throw LibraryError("it is cut short or damaged");
+  }
   expect_text(file, "program", provenance().program);
   return file;
 }
@@ -76,6 +82,41 @@ Hdf5Dataset expect_series(hid_t file, const std::string& path, hid_t type,
   const Hdf5Properties creation(hdf5(H5Dget_create_plist(dataset), path));
   require(H5Pget_layout(creation) == H5D_CHUNKED, format("'{}' cannot grow", path));
   return dataset;
+}
+
+std::uint64_t contents_of(hid_t file, const std::string& group) {
+  constexpr hsize_t piece_bytes = 4 << 20;
+  std::uint64_t sum = 0;
+  for (const std::string& name : links_of(file, group)) {
+    const std::string path = group + "/" + name;
+    const Hdf5Dataset dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
+    const Hdf5Properties creation(hdf5(H5Dget_create_plist(dataset), path));
+    if (H5Pget_layout(creation) == H5D_VIRTUAL) continue;
+    const Hdf5Type stored(hdf5(H5Dget_type(dataset), path)),
+        type(hdf5(H5Tget_native_type(stored, H5T_DIR_ASCEND), path));
+    ContentChecksum content;
+    content.add(path.data(), path.size());
+    const std::vector<hsize_t> shape = shape_of(dataset, path);
+    require(!shape.empty(), format("'{}' is a single number", path));
+    const hsize_t row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{H5Tget_size(type)},
+                                        std::multiplies<>()),
+                  most = std::max<hsize_t>(1, piece_bytes / std::max<hsize_t>(row, 1));
+    const Hdf5Space source(hdf5(H5Dget_space(dataset), path));
+    std::vector<std::byte> piece;
+    for (hsize_t begin = 0; begin < shape[0]; begin += most) {
+      std::vector<hsize_t> start(shape.size(), 0), count(shape);
+      start[0] = begin;
+      count[0] = std::min(most, shape[0] - begin);
+      piece.resize(count[0] * row);
+      hdf5(H5Sselect_hyperslab(source, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path);
+      const Hdf5Space target(
+          hdf5(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), path));
+      hdf5(H5Dread(dataset, type, target, source, H5P_DEFAULT, piece.data()), path);
+      content.add(piece.data(), piece.size());
+    }
+    sum += content.value();
+  }
+  return sum;
 }
 
 }  // namespace slipscale

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/collect_rows.hpp"
@@ -138,10 +139,14 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
     more(dataset);
   });
   std::string fault;
+  ContentChecksum content;
+  content.add(about.path.data(), about.path.size());
+  const std::size_t bytes = row_bytes(slice.shape, type);
   // A rank that cannot write goes on receiving, so that nobody waits for it.
-  collect_rows(comm_, {slice.begin, slice.count, row_bytes(slice.shape, type)}, rows,
+  collect_rows(comm_, {slice.begin, slice.count, bytes}, rows,
                [&](std::uint64_t begin, std::uint64_t count, const void* piece) {
                  if (!fault.empty()) return;
+                 content.add(piece, count * bytes);
                  try {
                    write_rows(dataset, slice.shape, begin, count, type, piece, about.path);
                    check_written(file_, about.path);
@@ -151,6 +156,7 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
                });
   on_root([&] {
     if (!fault.empty()) throw LibraryError(fault);
+    contents_ += content.value();
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
   });
 }

@@ -48,13 +48,13 @@ class AtRandom(Faults):
 
 class AtRandomOften(AtRandom):
     def test_alone(self):
-        self.check(moments=20, ranks=1, everybody=True)
+        self.check(moments=50, ranks=1, everybody=True)
 
     def test_one_of_two(self):
-        self.check(moments=20, ranks=2, everybody=False)
+        self.check(moments=25, ranks=2, everybody=False)
 
     def test_two_of_two(self):
-        self.check(moments=10, ranks=2, everybody=True)
+        self.check(moments=25, ranks=2, everybody=True)
 
 
 class Aimed(Faults):

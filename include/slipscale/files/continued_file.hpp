@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ Hdf5Dataset expect_dataset(hid_t file, const std::string& path, hid_t type, cons
 /// The same of real numbers, with these values.
 void expect_values(hid_t file, const std::string& path, const std::vector<hsize_t>& shape,
                    const std::string& units, const double* values);
+
+/// A checksum of the paths and values of all datasets in a group, views left out; as
+/// `SharedFile::take_contents`.
+std::uint64_t contents_of(hid_t file, const std::string& group);
 
 /// A dataset of at least `rows` rows that may grow. `row_shape`: of one row ({} a number).
 Hdf5Dataset expect_series(hid_t file, const std::string& path, hid_t type,
