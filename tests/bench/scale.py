@@ -23,7 +23,8 @@ import numpy as np
 
 BYTES = 16  # of a displacement
 WAYS = {"metis": "METIS", "strips": "strips", "rectangles": "rectangles"}
-SHOWN = (2, 16, 128, 1024, 4096)
+SHOWN = (2, 16, 64, 256, 1024, 4096)
+HALF = 0.5
 SIZE = re.compile(r"^(\d+) nodes, .*?$", re.M)
 RATE = re.compile(r"^  (step|step, pairs) +[\d.]+ ns per node \(least +([\d.]+)\)", re.M)
 
@@ -152,7 +153,7 @@ def efficiency(cut, machine, time):
 
 
 def in_short(nodes):
-    return f"{nodes / 1e6:.0f} M"
+    return f"{nodes / 1e6:.3g} M"
 
 
 def beside(values, digits):
@@ -196,6 +197,24 @@ def where(cuts, machine):
                           *(f"{efficiency(cut, machine, time):.2f}" for time in gains)]) + " |"
 
 
+def half(cuts, machine):
+    """Parts, and nodes a part, at which the efficiency falls to a half: the three ways beside each other."""
+    yield "| nodes | parts up to which the efficiency is a half or more | nodes a part there |"
+    yield "|---|---|---|"
+    for nodes in sorted({cut.nodes for cut in cuts}):
+        ends = []
+        for way in WAYS:
+            line = sorted((cut for cut in cuts if (cut.nodes, cut.way) == (nodes, way)), key=lambda cut: cut.parts)
+            values = [efficiency(cut, machine, step_of(cut, machine).total()) for cut in line]
+            last = next((k for k, value in enumerate(values) if value < HALF), None)
+            if last:  # between two numbers of parts, by logarithms
+                share = np.log(values[last - 1] / HALF) / np.log(values[last - 1] / values[last])
+                ends.append(line[last - 1].parts * (line[last].parts / line[last - 1].parts) ** share)
+            else:
+                ends.append(line[-1].parts if line and last is None else np.nan)
+        yield f"| {in_short(nodes)} | {beside(ends, '.0f')} | {beside([nodes / end for end in ends], '.0f')} |"
+
+
 def draw(cuts, machine, path):
     import matplotlib
     matplotlib.use("Agg")
@@ -208,7 +227,7 @@ def draw(cuts, machine, path):
         for way, name in WAYS.items():
             line = sorted((cut for cut in cuts if (cut.nodes, cut.way) == (nodes, way)), key=lambda cut: cut.parts)
             values = [efficiency(cut, machine, step_of(cut, machine).total()) for cut in line]
-            panel.semilogx([cut.parts for cut in line], values, "o-", markersize=4, base=2, color=colours[way],
+            panel.semilogx([cut.parts for cut in line], values, marker="o", markersize=4, base=2, color=colours[way],
                            linestyle="--" if any(cut.scaled for cut in line) else "-", label=name)
         panel.axhline(1, color="0.7", linewidth=0.8)
         panel.set(title=f"{in_short(nodes)} nodes", xlabel="parts", ylabel="efficiency", ylim=(0, None))
@@ -252,6 +271,7 @@ def main(words=None):
         for size, repeat, pairs in zip(machine.sizes, machine.repeat, machine.pairs)))
     print()
     print("\n".join(table(cuts, machine)), end="\n\n")
+    print("\n".join(half(cuts, machine)), end="\n\n")
     print("\n".join(where(cuts, machine)), end="\n\n")
     if differences := checked_scaling(counted):
         print(f"Halos of METIS scaled from the next smaller grid: {max(differences):.0%} off at most, "
