@@ -20,7 +20,7 @@ from slipscale.running.table import quickest, read_csv
 
 OPTIONS = ("element", "size", "solver", "rtol")
 COLOURS = {"triangle": BLUE, "quadrilateral": ORANGE, "grid": GREEN}  # black for others
-MARKERS = {"triangle": "^", "quadrilateral": "s", "grid": "D"}  # a disc for others
+MARKERS = {"triangle": "^", "quadrilateral": "s", "grid": "o"}  # a filled cross for others
 STYLES = {"triangle": "-", "quadrilateral": "--", "grid": "-."}  # dotted for others
 LABELS_AT = {"triangle": (4, 4), "quadrilateral": (-18, -10), "grid": (-16, 4)}  # of the sizes, in points
 ITERATIVE = "cg + gamg"
@@ -65,7 +65,7 @@ def colour_of(element):
 
 
 def marker_of(element):
-    return MARKERS.get(element, "o")
+    return MARKERS.get(element, "X")
 
 
 def meshes_of(element):
