@@ -118,11 +118,14 @@ def larger(cut, nodes):
 
 
 def completed(cuts):
-    """With what METIS would do to the grids it has not cut."""
-    metis = [cut for cut in cuts if cut.way == "metis"]
-    for nodes in sorted({cut.nodes for cut in cuts} - {cut.nodes for cut in metis}):
-        base = max((cut.nodes for cut in metis if cut.nodes < nodes), default=None)
-        cuts = cuts + [larger(cut, nodes) for cut in metis if cut.nodes == base]
+    """With what METIS would do to a grid where it was not tried: as the next smaller grid tells."""
+    cuts = list(cuts)
+    sizes = sorted({cut.nodes for cut in cuts})
+    for small, large in zip(sizes, sizes[1:]):
+        found = {(cut.nodes, cut.parts): cut for cut in cuts if cut.way == "metis"}
+        wanted = {cut.parts for cut in cuts if cut.nodes == large}
+        cuts += [larger(found[small, parts], large) for parts in sorted(wanted)
+                 if (large, parts) not in found and (small, parts) in found]
     return cuts
 
 
@@ -209,10 +212,11 @@ def half(cuts, machine):
             last = next((k for k, value in enumerate(values) if value < HALF), None)
             if last:  # between two numbers of parts, by logarithms
                 share = np.log(values[last - 1] / HALF) / np.log(values[last - 1] / values[last])
-                ends.append(line[last - 1].parts * (line[last].parts / line[last - 1].parts) ** share)
+                ends.append((line[last - 1].parts * (line[last].parts / line[last - 1].parts) ** share, ""))
             else:
-                ends.append(line[-1].parts if line and last is None else np.nan)
-        yield f"| {in_short(nodes)} | {beside(ends, '.0f')} | {beside([nodes / end for end in ends], '.0f')} |"
+                ends.append((line[-1].parts, "over "))
+        yield " | ".join([f"| {in_short(nodes)}", " / ".join(f"{more}{end:.0f}" for end, more in ends),
+                          " / ".join(f"{'below ' if more else ''}{nodes / end:.0f}" for end, more in ends)]) + " |"
 
 
 def draw(cuts, machine, path):
@@ -241,8 +245,8 @@ def draw(cuts, machine, path):
                                 ("transfer", "transfer", "0.4")):
         axes[-1].loglog(parts, [1e6 * getattr(step, name) for step in steps], "o-", markersize=4, color=colour,
                         label=label)
-    axes[-1].set_xscale("log", base=2)
     axes[-1].loglog(parts, [1e6 * step.total() for step in steps], "k-", linewidth=2, label="a step")
+    axes[-1].set_xscale("log", base=2)
     axes[-1].set(title=f"{in_short(sizes[0])} nodes by METIS: where a step goes", xlabel="parts", ylabel="µs")
     axes[-1].grid(alpha=0.25)
     axes[-1].legend(fontsize="small")
@@ -273,6 +277,9 @@ def main(words=None):
     print("\n".join(table(cuts, machine)), end="\n\n")
     print("\n".join(half(cuts, machine)), end="\n\n")
     print("\n".join(where(cuts, machine)), end="\n\n")
+    if followed := [cut for cut in cuts if cut.scaled]:
+        print("METIS by the next smaller grid: " + ", ".join(
+            f"{in_short(cut.nodes)} in {cut.parts} parts" for cut in followed) + ".")
     if differences := checked_scaling(counted):
         print(f"Halos of METIS scaled from the next smaller grid: {max(differences):.0%} off at most, "
               f"{np.median(differences):.0%} in the middle.")
