@@ -125,7 +125,8 @@ void read_microstructure_height(const Options& options, Recipe& recipe) {
       format("-microstructure_height {:g} leaves less than a cell ({:g} m) ", height, size);
   if (height < size) throw UserError(fault + "below it; give more, or a smaller -size");
   if (height > block - size)
-    throw UserError(fault + format("above it in a block of {:g} m; give less, or leave it out", block));
+    throw UserError(fault + format("above it in a block of {:g} m; give at most {:.3g}, or leave it out",
+                                   block, block - size));
   recipe.microstructure_height = height;
 }
 
