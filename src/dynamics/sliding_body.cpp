@@ -39,6 +39,29 @@ std::vector<double> tributary_lengths(const Mesh& mesh, const Boundary& boundary
   return length;
 }
 
+/// Moves nodes whose forces are all there.
+struct MoveFrom {
+  const FreeMotion& move;
+  const Vector2* force;
+
+  void prepare(int begin, int end) const { move.prepare(begin, end); }
+  void operator()(int begin, int end) const { move(begin, end, force); }
+};
+
+/// Moves nodes by forces in passing, and keeps those of some nodes.
+struct MovePassing {
+  const FreeMotion& move;
+  const std::vector<int>& keeps;  ///< ascending
+  Vector2* kept;                  ///< by local node
+  std::size_t next = 0;
+
+  void prepare(int begin, int end) const { move.prepare(begin, end); }
+  void operator()(int begin, int end, const Vector2* force) {
+    for (; next < keeps.size() && keeps[next] < end; ++next) kept[keeps[next]] = force[keeps[next]];
+    move(begin, end, force);
+  }
+};
+
 }  // namespace
 
 SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step)
@@ -134,21 +157,14 @@ void SlidingBody::free_motion(const StepCoefficients& step, bool observed) {
   const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
                         scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
   if (observed || passing_.empty()) {
-    std::visit(
-        [&](const auto& stiffness) {
-          stiffness.multiply(u_.data(), force_.data(),
-                             [&](int begin, int end) { move(begin, end, force_.data()); });
-        },
-        model_.stiffness);
-    return;
+    const MoveFrom moves{move, force_.data()};
+    std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), moves); },
+               model_.stiffness);
+  } else {
+    MovePassing moves{move, boundary_.node, force_.data()};
+    std::visit([&](const auto& stiffness) { stiffness.multiply_passing(u_.data(), passing_, moves); },
+               model_.stiffness);
   }
-  auto next = boundary_.node.begin();
-  const auto move_passing = [&](int begin, int end, const Vector2* force) {
-    for (; next != boundary_.node.end() && *next < end; ++next) force_[*next] = force[*next];
-    move(begin, end, force);
-  };
-  std::visit([&](const auto& stiffness) { stiffness.multiply_passing(u_.data(), passing_, move_passing); },
-             model_.stiffness);
 }
 
 NodalState SlidingBody::state(bool with_acceleration) const {

@@ -104,7 +104,7 @@ class SlidingBody {
   const double time_step_;
   NodalVector u_, w_, v_, a_;
   LargeArray<Vector2> force_, previous_force_, kept_;
-  std::vector<Vector2>
+  LargeArray<Vector2>
       passing_;  ///< forces that only the free motion of their node asks for, see PairStiffness
   LargeArray<double> inverse_mass_;
   const std::vector<std::string> boundary_names_;
