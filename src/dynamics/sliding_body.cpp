@@ -172,6 +172,8 @@ void SlidingBody::free_motion(const StepCoefficients& step, Observed observed) {
   };
   const auto nothing = [](int, int) {};
   if (everything) {
+    const std::size_t owned = model_.mass.size();
+    std::copy(u_.data() + owned, u_.data() + kept_.size(), kept_.data() + owned);
     const auto keep = [&](int begin, int end) {
       std::copy(u_.data() + begin, u_.data() + end, kept_.data() + begin);
     };
@@ -212,9 +214,6 @@ void SlidingBody::remember(Observed observed, const NodalState& moving) {
   static const LogEvent event("BoundaryMemory");
   const LogEvent::Scope scope(event);
   boundary_.remember(moving, force_.data());
-  const int owned = model_.mesh.nodes.owned;
-  if (observed == Observed::everything)  // owned nodes are kept when they move
-    std::copy(u_.data() + owned, u_.data() + kept_.size(), kept_.data() + owned);
   if (observed == Observed::boundary)
     for (int k = 0; k < boundary_.size(); ++k) kept_[boundary_.node[k]] = boundary_.displacement[k];
   if (physics_.keeps_force()) std::swap(force_, previous_force_);
@@ -252,12 +251,12 @@ void SlidingBody::advance(Observed observed) {
       first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
   const NodalState moving = state(observed != Observed::nothing || physics_.keeps_acceleration);
 
+  remember(observed, moving);
   {
     static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
     u_.end_update();
   }
-  remember(observed, moving);
   {
     static const LogEvent event("StiffnessMotion");
     const LogEvent::Scope scope(event);
