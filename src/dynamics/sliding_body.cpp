@@ -63,15 +63,19 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
   straight_ = std::make_unique<StraightSides>(comm, model.mesh, scene.conditions, boundary_, *supports_,
                                               u_.data(), w_.data());
+  inverse_mass_.reserve(model.mass.size());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
-  if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
+  if (physics_.keeps_force())
+    previous_force_.assign(force_.size(), {0, 0});
+  else
+    passing_.resize(std::visit([](const auto& each) { return each.passing_size(); }, model.stiffness));
   if (scene_.surface) set_contact_nodes();
   ledger_.start(physics_, model.mesh.nodes.owned, boundary_.size(), contact_.size(),
                 static_cast<int>(straight_->size()));
   start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
-  std::vector<double> work;
-  for (int i = 0; i < model.mesh.nodes.owned; ++i) work.push_back(gravity_work(i, u_.data()[i]));
+  std::vector<double> work(scene.body_acceleration != Vector2{} ? model.mass.size() : 0);
+  for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), u_.data()[i]);
   start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 
@@ -122,12 +126,28 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
-  const BulkArrays arrays{
-      inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
+/// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
+/// in observed steps.
+void SlidingBody::free_motion(const StepCoefficients& step, bool observed) {
+  const BulkPhysics physics = observed ? keeping_acceleration(physics_) : physics_;
+  const BulkArrays arrays{inverse_mass_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
   const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
                         scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
-  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
+  if (observed || passing_.empty()) {
+    std::visit(
+        [&](const auto& stiffness) {
+          stiffness.multiply(u_.data(), force_.data(),
+                             [&](int begin, int end) { move(begin, end, force_.data()); });
+        },
+        model_.stiffness);
+    return;
+  }
+  auto next = boundary_.node.begin();
+  const auto move_passing = [&](int begin, int end, const Vector2* force) {
+    for (; next != boundary_.node.end() && *next < end; ++next) force_[*next] = force[*next];
+    move(begin, end, force);
+  };
+  std::visit([&](const auto& stiffness) { stiffness.multiply_passing(u_.data(), passing_, move_passing); },
              model_.stiffness);
 }
 
@@ -185,7 +205,7 @@ void SlidingBody::advance(bool observed) {
   {
     static const LogEvent event("StiffnessMotion");
     const LogEvent::Scope scope(event);
-    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
+    free_motion(step, observed);
   }
   {
     static const LogEvent event("LoadsSupports");

@@ -1,6 +1,7 @@
 #include "slipscale/solid/pair_stiffness.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "assembled_pairs.hpp"
 #include "quartets.hpp"
@@ -11,16 +12,26 @@ namespace {
 
 constexpr int rows_of_a_chunk = 256;
 
+/// What waits for its neighbours is moved to the front only every so many times that it has filled the room.
+constexpr std::size_t rooms_for_what_passes = 3;
+
 /// A run that vector instructions take at one stroke.
 constexpr int long_run = 4;
 
 /// What it costs to gather a run, in units of a node whose pairs are visited; measured.
 double cost_of(int nodes) { return nodes < long_run ? 1.2 * nodes : 0.6 + 0.3 * nodes; }
 
+/// By the way through `gather_runs`.
+bool takes_fewer_strokes(const Run& a, const Run& b) {
+  const auto way = [](const Run& run) {
+    const int nodes = run.end - run.begin, stroke = 3 * long_run;
+    return std::tuple(nodes / stroke, nodes % stroke / long_run, nodes % long_run != 0, run.last - run.first);
+  };
+  return way(a) < way(b);
+}
+
 /// 1 for each owned node whose force is gathered: those of the chunks where this costs less.
-template <class Scalar>
-std::vector<char> choose_gathered(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
-                                  int owned) {
+std::vector<char> choose_gathered(const AssembledPairs& pairs, const RowTerms& rows, int owned) {
   std::vector<char> gathered(static_cast<std::size_t>(owned), 0);
   std::vector<Term> terms, before;
   for (int begin = 0; begin < pairs.rows(); begin += rows_of_a_chunk) {
@@ -59,17 +70,18 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
       gather_runs_(gather_runs_with(kernel.instructions)),
       gather_quartets_(gather_quartets_with(kernel.instructions)) {
   const auto pairs = assemble_pairs<Scalar>(mesh, materials);
-  const RowTerms<Scalar> rows(pairs);
+  const RowTerms rows(pairs);
   lay_out(pairs, rows,
           kernel.runs ? choose_gathered(pairs, rows, owned_)
                       : std::vector<char>(static_cast<std::size_t>(owned_), 0));
 }
 
 template <class Scalar>
-void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
+void PairStiffness<Scalar>::lay_out(const AssembledPairs& pairs, const RowTerms& rows,
                                     const std::vector<char>& gathered) {
   TermLists lists;
   Quartets quartets(count_);
+  reserve(pairs, gathered);
   int touched = 0, seen = 0;
   for (int begin = 0; begin < pairs.rows(); begin += rows_of_a_chunk) {
     const int end = std::min(begin + rows_of_a_chunk, pairs.rows());
@@ -84,7 +96,9 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
       add_row(pairs, row, gathered);
       if (pairs.node[row] < owned_) seen = pairs.node[row] + 1;
     }
-    if (first < seen && gathered[first]) add_gathered(rows, first, seen, lists, quartets);
+    chunk.gathered_begin = chunk.gathered_end = seen;
+    if (first < seen && gathered[first]) chunk.gathered_begin = first;
+    if (chunk.gathered_begin < seen) add_gathered(rows, first, seen, lists, quartets);
     chunk.rows_end = static_cast<int>(rows_.size());
     chunk.runs_end = static_cast<int>(runs_.size());
     chunk.quartets_end = static_cast<int>(quartets_.size());
@@ -102,15 +116,32 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
   links_ = std::move(quartets.links);
   values_ = std::move(quartets.values);
   complete_in_order(pairs, gathered);
-  rows_.shrink_to_fit(), high_.shrink_to_fit(), blocks_.shrink_to_fit(), runs_.shrink_to_fit();
-  values_.shrink_to_fit();
+  skews_.shrink_to_fit(), runs_.shrink_to_fit(), quartets_.shrink_to_fit();
+  links_.shrink_to_fit(), values_.shrink_to_fit();
 }
 
-/// The owned nodes of a chunk: in runs where these are long, else in quartets.
+/// Makes room for what `add_row` keeps.
 template <class Scalar>
-void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists,
+void PairStiffness<Scalar>::reserve(const AssembledPairs& pairs, const std::vector<char>& gathered) {
+  std::size_t kept = 0, kept_rows = 1;
+  for (int row = 0; row < pairs.rows(); ++row) {
+    const auto before = kept;
+    for (int pair = pairs.first[row]; pair < pairs.first[row + 1]; ++pair)
+      kept += visited(pairs.node[row], gathered) || visited(pairs.high[pair], gathered);
+    kept_rows += kept > before || visited(pairs.node[row], gathered);
+  }
+  high_.reserve(kept), blocks_.reserve(kept), rows_.reserve(kept_rows);
+}
+
+/// The owned nodes of a chunk: in runs where these are long, else in quartets. They are put in an order in
+/// which those that take the same way through the loops follow one another: each way that a processor
+/// foresees wrongly costs as much as a link or two.
+template <class Scalar>
+void PairStiffness<Scalar>::add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists,
                                          Quartets& quartets) {
   gathered_ += end - begin;
+  const auto first_run = static_cast<std::ptrdiff_t>(runs_.size());
+  std::vector<QuartetDraft> drafts;
   std::vector<Term> terms, next;
   int between = begin;  // where the nodes start that are in no run
   rows.of(begin, terms);
@@ -121,7 +152,7 @@ void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin
       if (next != terms) break;
     }
     if (stop - node >= long_run) {
-      if (between < node) add_quartets(rows, {between, node, 0, 0}, begin, end, lists, quartets);
+      if (between < node) add_quartets(rows, {between, node, 0, 0}, begin, end, lists, quartets, drafts);
       const auto [first, last] = lists.place(terms);
       runs_.push_back({node, stop, first, last});
       repeating_ += stop - node;
@@ -130,21 +161,25 @@ void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin
     std::swap(terms, next);
     node = stop;
   }
-  if (between < end) add_quartets(rows, {between, end, 0, 0}, begin, end, lists, quartets);
+  if (between < end) add_quartets(rows, {between, end, 0, 0}, begin, end, lists, quartets, drafts);
+  std::stable_sort(runs_.begin() + first_run, runs_.end(), takes_fewer_strokes);
+  std::ranges::stable_sort(drafts, &QuartetDraft::is_before);
+  for (const auto& draft : drafts) quartets_.push_back(quartets.add(draft));
 }
 
 /// The nodes of a stretch; where they are no multiple of four, with nodes beside it, whose forces are
 /// gathered a second time, to the same bits. `begin` and `end` are those of the chunk.
 template <class Scalar>
-void PairStiffness<Scalar>::add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end,
-                                         TermLists& lists, Quartets& quartets) {
+void PairStiffness<Scalar>::add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end,
+                                         TermLists& lists, const Quartets& quartets,
+                                         std::vector<QuartetDraft>& drafts) {
   std::array<std::vector<Term>, 4> terms;
   for (int node = stretch.begin; node < stretch.end; node += 4) {
     const int first = std::max(begin, std::min(node, end - 4));
     if (first + 4 <= end) {
       for (int k = 0; k < 4; ++k) rows.of(first + k, terms[k]);
-      if (const auto quartet = quartets.make(first, terms)) {
-        quartets_.push_back(*quartet);
+      if (auto draft = quartets.draft(first, terms)) {
+        drafts.push_back(std::move(*draft));
         continue;
       }
     }
@@ -159,25 +194,24 @@ void PairStiffness<Scalar>::add_quartets(const RowTerms<Scalar>& rows, const Run
 /// Keeps the pairs of which an end is visited. A row without pairs is kept where its node is visited: its
 /// force must be made zero.
 template <class Scalar>
-void PairStiffness<Scalar>::add_row(const AssembledPairs<Scalar>& pairs, int row,
-                                    const std::vector<char>& gathered) {
-  const auto visited = [&](int node) { return node < owned_ && !gathered[node]; };
+void PairStiffness<Scalar>::add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered) {
   const int node = pairs.node[row];
   const auto first = static_cast<int>(high_.size());
   for (int pair = pairs.first[row]; pair < pairs.first[row + 1]; ++pair) {
-    if (!visited(node) && !visited(pairs.high[pair])) continue;
+    if (!visited(node, gathered) && !visited(pairs.high[pair], gathered)) continue;
     const auto& block = pairs.block[pair];
     high_.push_back(pairs.high[pair]);
-    blocks_.push_back({block.xx, block.xy, block.yy});
+    blocks_.push_back(
+        {static_cast<Scalar>(block.xx), static_cast<Scalar>(block.xy), static_cast<Scalar>(block.yy)});
     if (block.skew != 0) skews_.push_back({static_cast<int>(rows_.size()), pairs.high[pair], block.skew});
   }
-  if (visited(node) || first < static_cast<int>(high_.size())) rows_.push_back({node, first});
+  if (visited(node, gathered) || first < static_cast<int>(high_.size())) rows_.push_back({node, first});
 }
 
 /// A node may move once nothing reads its displacement any more: its own row, and the rows of its neighbours
 /// that are gathered.
 template <class Scalar>
-void PairStiffness<Scalar>::complete_in_order(const AssembledPairs<Scalar>& pairs,
+void PairStiffness<Scalar>::complete_in_order(const AssembledPairs& pairs,
                                               const std::vector<char>& gathered) {
   std::vector<int> chunk_of(static_cast<std::size_t>(count_));
   for (int row = 0; row < pairs.rows(); ++row) chunk_of[pairs.node[row]] = row / rows_of_a_chunk;
@@ -196,6 +230,11 @@ void PairStiffness<Scalar>::complete_in_order(const AssembledPairs<Scalar>& pair
     while (complete < owned_ && last_reader[complete] <= k) ++complete;
     chunks_[k].complete_end = complete;
   }
+  if (gathered_ < owned_) return;
+  for (const Chunk& chunk : chunks_)
+    passing_size_ =
+        std::max(passing_size_, static_cast<std::size_t>(chunk.gathered_end - chunk.complete_begin));
+  passing_size_ *= rooms_for_what_passes;
 }
 
 template class PairStiffness<double>;

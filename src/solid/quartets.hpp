@@ -3,12 +3,28 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/solid/repeated_rows.hpp"
 
 namespace slipscale {
+
+/// A quartet with the blocks of its links still beside it.
+struct QuartetDraft {
+  struct Part {
+    int offset;
+    bool turns;
+    std::array<double, 12> blocks;
+  };
+  int begin;
+  std::vector<Part> parts;
+
+  /// An order in which those that take the same way through the loops follow one another.
+  bool is_before(const QuartetDraft& other) const;
+};
 
 /// Makes quartets, and keeps what they share once.
 class Quartets {
@@ -19,18 +35,21 @@ class Quartets {
   /// Of the nodes from `begin` on, whose terms these are. None where the terms of two of them cannot be added
   /// in one order: where a neighbour is a ghost, which lies behind whatever its number; nor where one would
   /// look beyond the arrays for a neighbour that only another has.
-  std::optional<Quartet> make(int begin, const std::array<std::vector<Term>, 4>& terms);
+  std::optional<QuartetDraft> draft(int begin, const std::array<std::vector<Term>, 4>& terms) const;
+  Quartet add(const QuartetDraft& draft);
 
-  std::vector<Link> links;
-  std::vector<double> values;
+  LargeArray<Link> links;
+  LargeArray<double> values;
 
  private:
+  int place(std::span<const double> blocks);
+
   int count_;
   struct Kept {
     int first, last;
-    long values;
   };
-  std::unordered_map<std::uint64_t, Kept> known_;
+  std::unordered_map<std::uint64_t, Kept> known_;        ///< lists of links, by their digest
+  std::unordered_map<std::uint64_t, int> known_blocks_;  ///< places, by the digest of what stands there
 };
 
 }  // namespace slipscale

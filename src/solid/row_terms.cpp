@@ -6,8 +6,7 @@
 
 namespace slipscale {
 
-template <class Scalar>
-RowTerms<Scalar>::RowTerms(const AssembledPairs<Scalar>& pairs)
+RowTerms::RowTerms(const AssembledPairs& pairs)
     : pairs_(pairs), row_of_(pairs.node.size()), low_first_(pairs.node.size() + 1, 0) {
   for (const int high : pairs.high) ++low_first_[high + 1];
   std::partial_sum(low_first_.begin(), low_first_.end(), low_first_.begin());
@@ -24,8 +23,7 @@ RowTerms<Scalar>::RowTerms(const AssembledPairs<Scalar>& pairs)
   }
 }
 
-template <class Scalar>
-void RowTerms<Scalar>::of(int node, std::vector<Term>& terms) const {
+void RowTerms::of(int node, std::vector<Term>& terms) const {
   terms.clear();
   const auto straight = [&](const auto& block, int other) {
     terms.push_back({Lanes{block.xx, block.yy}, Lanes{block.xy, block.xy}, other - node});
@@ -69,8 +67,5 @@ std::pair<int, int> TermLists::place(const std::vector<Term>& terms) {
   all_.insert(all_.end(), terms.begin(), terms.end());
   return found->second = {begin, static_cast<int>(all_.size())};
 }
-
-template class RowTerms<double>;
-template class RowTerms<float>;
 
 }  // namespace slipscale

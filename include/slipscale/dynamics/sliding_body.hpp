@@ -52,7 +52,8 @@ class SlidingBody {
   const Vector2* velocity_n() const { return v_.data(); }         ///< v_n, owned nodes, m/s
   const Vector2* acceleration_n() const { return a_.data(); }     ///< a_n, owned nodes, m/s²
   // Of every step:
-  const Vector2* internal_force_n() const { return force_.data(); }  ///< K u_n, owned nodes, N/m
+  /// K u_n, N/m; at the boundary nodes, and of an observed step at all owned nodes.
+  const Vector2* internal_force_n() const { return force_.data(); }
   /// u_{n+1}, m; owned nodes only: the exchange that brings the ghosts is under way until the next step.
   const Vector2* next_displacement() const { return u_.data(); }
   const Vector2* next_predictor() const { return w_.data(); }        ///< w_{n+1}, owned nodes, m/s
@@ -83,7 +84,7 @@ class SlidingBody {
   bool has_touched() const;
 
  private:
-  void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
+  void free_motion(const StepCoefficients& step, bool observed);
   void remember(bool observed, const NodalState& moving);
   void touch_surface(bool first, const StepCoefficients& step, const NodalState& moving);
   void add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving);
@@ -102,8 +103,10 @@ class SlidingBody {
   const Scene scene_;
   const double time_step_;
   NodalVector u_, w_, v_, a_;
-  std::vector<Vector2> force_, previous_force_, kept_;
-  std::vector<double> inverse_mass_;
+  LargeArray<Vector2> force_, previous_force_, kept_;
+  std::vector<Vector2>
+      passing_;  ///< forces that only the free motion of their node asks for, see PairStiffness
+  LargeArray<double> inverse_mass_;
   const std::vector<std::string> boundary_names_;
   BoundaryNodes boundary_;
   Loads loads_;
@@ -123,6 +126,7 @@ class SlidingBody {
   struct Carried {
     double steps, surface_travel, start_gravity, start_energy, touched;
   } carried_{};
+  std::vector<Vector2> carried_force_;  ///< K u_n at the boundary nodes, where the bulk does not need it
 };
 
 }  // namespace slipscale
