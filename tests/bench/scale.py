@@ -213,7 +213,7 @@ def half(cuts, machine):
             if last:  # between two numbers of parts, by logarithms
                 share = np.log(values[last - 1] / HALF) / np.log(values[last - 1] / values[last])
                 ends.append((line[last - 1].parts * (line[last].parts / line[last - 1].parts) ** share, ""))
-            else:
+            elif line:
                 ends.append((line[-1].parts, "over "))
         yield " | ".join([f"| {in_short(nodes)}", " / ".join(f"{more}{end:.0f}" for end, more in ends),
                           " / ".join(f"{'below ' if more else ''}{nodes / end:.0f}" for end, more in ends)]) + " |"
