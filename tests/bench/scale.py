@@ -159,6 +159,11 @@ def in_short(nodes):
     return f"{nodes / 1e6:.3g} M"
 
 
+def microseconds(seconds):
+    """With three digits."""
+    return f"{1e6 * seconds:.{max(0, 2 - int(np.floor(np.log10(1e6 * seconds))))}f}"
+
+
 def beside(values, digits):
     return " / ".join(f"{value:{digits}}" for value in values)
 
@@ -178,7 +183,7 @@ def table(cuts, machine):
             yield " | ".join([
                 f"| {in_short(nodes)}", str(parts), f"{share:.0f}",
                 beside([cut.owned / share for cut in three], ".2f"), beside([cut.senders for cut in three], ".0f"),
-                beside([cut.ghosts for cut in three], ".0f"), beside([1e6 * step.total() for step in steps], ".3g"),
+                beside([cut.ghosts for cut in three], ".0f"), " / ".join(microseconds(step.total()) for step in steps),
                 beside([efficiency(cut, machine, step.total()) for cut, step in zip(three, steps)], ".2f")]) + " |"
 
 
