@@ -13,7 +13,7 @@ namespace {
 #define SLIPSCALE_BODY "slipscale/dynamics/free_motion.inc"
 #include "slipscale/solid/for_all_instructions.inc"
 
-using Move = void (*)(const FreeMotionState&, int begin, int end);
+using Move = void (*)(const FreeMotionState&, int begin, int end, const Vector2* force);
 
 /// In the order of `Instructions`.
 template <BulkPhysics physics>
