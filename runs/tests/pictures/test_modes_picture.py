@@ -10,9 +10,18 @@ from slipscale.pictures import modes_picture
 from tests import fake_modes
 
 
-def point(options, growth):
-    values = "".join(f"    {name}: {value}\n" for name, value in options.items()).lstrip()
-    return f"  - {values}    modes:\n      - {{frequency: 4e5, growth_rate: {growth}}}\n"
+SWEEPS = """sweeps:
+  coefficient:
+    values: [0.2, 0.4, 0.6]
+    becomes_unstable:
+      - {value: 0.3, frequency: 4e5}
+    paths:
+      - {growth_rate: [-1e4, 1e4, 2e4], frequency: [4e5, 4e5, 4e5]}
+      - {growth_rate: [-2e4, -2e4, .nan], frequency: [5e5, 5e5, .nan]}
+  time:
+    values: [1e-7, 2e-7]
+    paths: []
+"""
 
 
 class ModesPicture(unittest.TestCase):
@@ -31,11 +40,8 @@ class ModesPicture(unittest.TestCase):
                                          "(c) Mode 2: 512.0 kHz, +21.00/ms", "(d) Tractions of mode 1 along the contact"])
 
     def test_sweeps(self):
-        one = "sweep:\n" + "".join(point({"coefficient": mu}, 1e5 * (mu - 0.3)) for mu in (0.2, 0.4, 0.6))
-        self.assertEqual(self.titles(more=one)[-1], "(e) Sweep: 2 of 3 points have a mode that grows")
-        two = "sweep:\n" + "".join(point({"coefficient": mu, "time": time}, 1e5 * (mu - 0.3)) for mu in (0.2, 0.4)
-                                   for time in (1e-7, 1e-6))
-        self.assertEqual(self.titles(more=two)[-1], "(e) Sweep: 2 of 4 points have a mode that grows")
+        self.assertEqual(self.titles(more=SWEEPS)[-2:], ["(e) 1 of 2 paths grow somewhere",
+                                                         "(f) 0 of 0 paths grow somewhere"])
 
     def test_command(self):
         fake_modes.write_modes(self.folder)

@@ -10,14 +10,19 @@ from slipscale.reading import UnreadableRun
 from slipscale.reading.modes import Modes
 from tests import fake_modes
 
-SWEEP = """sweep:
-  - coefficient: 0.2
-    unstable: 0
-    modes: []
-  - coefficient: 0.4
-    unstable: 1
-    modes:
-      - {frequency: 4e5, growth_rate: 2e4, residual: 1e-12}
+SWEEP = """sweeps:
+  coefficient:
+    values: [0.2, 0.4]
+    becomes_unstable:
+      - value: 0.3
+        frequency: 400000
+        path: 1
+        beyond: grows
+    paths:
+      - growth_rate: [-1e4, 1e4]
+        frequency: [4e5, 4.1e5]
+      - growth_rate: [.nan, -2e4]
+        frequency: [.nan, 5e5]
 """
 
 
@@ -36,7 +41,7 @@ class ReadModes(unittest.TestCase):
         self.assertAlmostEqual(modes.modes[0].scheme_p.real, 5.6056e4)
         self.assertEqual(modes.modes[0].friction_work, {"matrix": 0.1})
         self.assertEqual(modes.state["nodes_open"], 2)
-        self.assertEqual(modes.sweep, [])
+        self.assertEqual(modes.sweeps, [])
         with modes.shapes as shapes:
             self.assertEqual(shapes.count, 3)
             shape = shapes.shape(1)
@@ -48,9 +53,10 @@ class ReadModes(unittest.TestCase):
 
     def test_a_sweep(self):
         fake_modes.write_modes(self.folder, more=SWEEP)
-        points = Modes(self.folder).sweep
-        self.assertEqual([point.options for point in points], [{"coefficient": 0.2}, {"coefficient": 0.4}])
-        self.assertEqual([len(point.modes) for point in points], [0, 1])
+        (sweep,) = Modes(self.folder).sweeps
+        self.assertEqual((sweep.name, list(sweep.values), sweep.limits), ("coefficient", [0.2, 0.4], [(0.3, 4e5)]))
+        np.testing.assert_equal(sweep.growth_rate, [[-1e4, 1e4], [np.nan, -2e4]])
+        self.assertEqual(sweep.frequency[0, 1], 4.1e5)
 
     def test_what_is_missing_is_said(self):
         with self.assertRaisesRegex(UnreadableRun, "no modes.yaml in .*: give the output folder of a `modes` run"):
