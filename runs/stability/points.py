@@ -16,7 +16,7 @@ def swept(config, defaults, find):
     if "sizes" in config:  # on coarser meshes, for trials: what was seen on the coarsest
         coarsest = max(row["size"] for row in rows)
         rows = [{**row, "size": float(size)} for size in config["sizes"] for row in rows if row["size"] == coarsest]
-    rows = [row for row in rows if allowed(row, config, coefficients="coefficient", speeds="speed")]
+    rows = [row for row in rows if allowed(row, config, coefficients="coefficient", speeds="speed", only="size")]
     for row in rows:
         time = float(config["length"]) / float(row["speed"])
         row["options"] = {**defaults, "model": "plain", "size": row["size"], "coefficient": row["coefficient"],
@@ -27,7 +27,7 @@ def swept(config, defaults, find):
 def judged(config, defaults, find):
     """Rows of the study `equivalence`, each with lists of options, `composites` and `homogenised`. Raises Mistake."""
     rows = [row for row in outcomes.verdicts(find(config["seen"]))
-            if row["block"] in config["seeds"] and allowed(row, config, coefficients="coefficient", memory="memory")]
+            if config["seeds"].get(row["block"]) and allowed(row, config, coefficients="coefficient", memory="memory")]
     for row in rows:
         memory = config["memories"][row["memory"]]
         time = float(memory["time"] if "time" in memory else float(memory["length"]) / float(row["speed"]))

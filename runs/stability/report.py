@@ -53,7 +53,7 @@ def growth_table(rows):
 
 def map_lines(rows):
     known = [row for row in rows if row["status"] == "ok"]
-    yield f"(b) {len(known)} points of the sweep, on all of its meshes"
+    yield f"(b) {len(known)} points of the sweep"
     pairs = counted((bool(row["growing"]), row["amplitude"] > STILL) for row in known)
     yield (f"a mode grows and it vibrates: {pairs[True, True]}; neither: {pairs[False, False]}; a mode grows but nothing "
            f"vibrates: {pairs[True, False]}; it vibrates though no mode grows: {pairs[False, True]}")
