@@ -61,8 +61,8 @@ def draw(options):
     for axes, size in zip(panels[0], sizes):
         image = panel(axes, [row for row in rows if row["size"] == size], largest)
     figure.colorbar(image, ax=panels[0], label="growth rate of the fastest mode [1/ms]")
-    figure.suptitle("Frequency of the fastest mode that grows and, below, of the limit cycle [kHz]; framed: one without the "
-                    "other", fontsize=11)
+    figure.suptitle("Frequency of the fastest mode that grows and, below, of the limit cycle [kHz]\n"
+                    "framed: one without the other", fontsize=11)
     return figure
 
 
