@@ -53,6 +53,10 @@ void number_whole(Whole& whole);
 EdgeRounding edge_rounding(const PlainMesh& mesh, const Vector2& lower, const Vector2& upper,
                            double shortest_edge);
 
+/// The part of each cell when the mesh is cut into so many; on rank 0, elsewhere nothing. Only PT-Scotch is
+/// collective, and cuts into as many parts as there are ranks.
+std::vector<PetscInt> cell_parts(MPI_Comm comm, Partitioner partitioner, int ranks, const Whole& whole);
+
 /// Gives the DMPlex of the whole mesh the partition that it shall be cut by. Collective.
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole);
 

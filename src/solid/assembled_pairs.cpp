@@ -104,9 +104,8 @@ AssembledPairs assemble_pairs(const Mesh& mesh, const std::vector<Material>& mat
   for (std::size_t pair = 0; pair < pairs.block.size(); ++pair) {
     const auto [xx, xy, yx, yy] = pairs.block[pair];
     const double skew = 0.5 * (xy - yx);
-    pairs.block[pair] = {
-        rounded<Scalar>(xx), rounded<Scalar>(0.5 * (xy + yx)), rounded<Scalar>(yy),
-        std::abs(skew) > nothing * static_cast<double>(size[pair]) ? rounded<Scalar>(skew) : 0};
+    pairs.block[pair] = {rounded<Scalar>(xx), rounded<Scalar>(0.5 * (xy + yx)), rounded<Scalar>(yy),
+                         std::abs(skew) > nothing * static_cast<double>(size[pair]) ? skew : 0};
   }
   return pairs;
 }

@@ -11,6 +11,8 @@ namespace slipscale {
 /// owned, N/m². Rows are the lower nodes, by ascending whole-mesh number, and so are the pairs of a row.
 struct AssembledPairs {
   /// K_ij with i the lower node: symmetric part, and the skew part, +skew in xy and −skew in yx.
+  /// Around a node the skew parts of a row cancel; rounded one by one they would not, and the force would
+  /// have no energy. So these few are kept in double precision whatever the others are.
   struct Block {
     double xx, xy, yy, skew;
   };

@@ -185,8 +185,7 @@ void PairStiffness<Scalar>::add_row(const AssembledPairs& pairs, int row, const 
     high_.push_back(pairs.high[pair]);
     blocks_.push_back(
         {static_cast<Scalar>(block.xx), static_cast<Scalar>(block.xy), static_cast<Scalar>(block.yy)});
-    if (block.skew != 0)
-      skews_.push_back({static_cast<int>(rows_.size()), pairs.high[pair], static_cast<Scalar>(block.skew)});
+    if (block.skew != 0) skews_.push_back({static_cast<int>(rows_.size()), pairs.high[pair], block.skew});
   }
   if (visited(node, gathered) || first < static_cast<int>(high_.size())) rows_.push_back({node, first});
 }

@@ -9,6 +9,7 @@
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/files/progress.hpp"
 #include "slipscale/record/checkpoint.hpp"
+#include "slipscale/record/content_marks.hpp"
 #include "slipscale/record/fields_file.hpp"
 #include "slipscale/record/force_record.hpp"
 #include "slipscale/record/history.hpp"
@@ -66,6 +67,7 @@ class Recorder {
   double rows(long every) const { return static_cast<double>((last_ + every - 1) / every + 1); }
   void open_files(const Restart* restart);
   void go_on(const Restart& restart);
+  void check_contents(const Restart& restart);
   void close_files();
   std::string summary(long steps, const std::string& why, const std::string& command);
   double seconds() const;  ///< of the steps and their output so far
@@ -81,6 +83,8 @@ class Recorder {
   const std::string run_;
   RunPosition position_;  ///< at the restart; of a new run all zero
   RunPosition written_;   ///< as the last checkpoint has it
+  ContentMarks history_marks_{"history_contents"}, contact_marks_{"contact_contents"},
+      fields_marks_{"fields_contents"};
   const TimeStep time_;
   const long last_, history_every_;
   const bool has_contact_;
@@ -104,6 +108,7 @@ class Recorder {
   std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
   long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written
   double largest_residual_ = 0;             ///< relative to what flowed
+  double rounded_residual_ = 0;             ///< of rows of which rounding makes more than counts as sound
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -36,7 +36,8 @@ class Quartets;
 /// the blocks in registers, each node's parts in the order in which the visit of the pairs would add them: to
 /// the same bits. Whether a chunk of rows is gathered or visited depends on what repeats in it.
 ///
-/// `Scalar` is what the blocks are stored in; all arithmetic is in double precision.
+/// `Scalar` is what the symmetric parts are stored in; all arithmetic is in double precision. The skew parts
+/// of a row cancel around its node, which is what makes the whole symmetric: they stay in double precision.
 template <class Scalar>
 class PairStiffness {
  public:
@@ -80,7 +81,7 @@ class PairStiffness {
   /// Skew part of K_ij with i the node of lower number: +value in xy, −value in yx.
   struct Skew {
     int row, high;
-    Scalar value;
+    double value;
   };
   struct Row {
     int node;   ///< local node, the lower of its pairs
