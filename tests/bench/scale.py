@@ -159,6 +159,11 @@ def in_short(nodes):
     return f"{nodes / 1e6:.3g} M"
 
 
+def microseconds(seconds):
+    """With three digits."""
+    return f"{1e6 * seconds:.{max(0, 2 - int(np.floor(np.log10(1e6 * seconds))))}f}"
+
+
 def beside(values, digits):
     return " / ".join(f"{value:{digits}}" for value in values)
 
@@ -178,7 +183,7 @@ def table(cuts, machine):
             yield " | ".join([
                 f"| {in_short(nodes)}", str(parts), f"{share:.0f}",
                 beside([cut.owned / share for cut in three], ".2f"), beside([cut.senders for cut in three], ".0f"),
-                beside([cut.ghosts for cut in three], ".0f"), beside([1e6 * step.total() for step in steps], ".3g"),
+                beside([cut.ghosts for cut in three], ".0f"), " / ".join(microseconds(step.total()) for step in steps),
                 beside([efficiency(cut, machine, step.total()) for cut, step in zip(three, steps)], ".2f")]) + " |"
 
 
@@ -213,7 +218,7 @@ def half(cuts, machine):
             if last:  # between two numbers of parts, by logarithms
                 share = np.log(values[last - 1] / HALF) / np.log(values[last - 1] / values[last])
                 ends.append((line[last - 1].parts * (line[last].parts / line[last - 1].parts) ** share, ""))
-            else:
+            elif line:
                 ends.append((line[-1].parts, "over "))
         yield " | ".join([f"| {in_short(nodes)}", " / ".join(f"{more}{end:.0f}" for end, more in ends),
                           " / ".join(f"{'below ' if more else ''}{nodes / end:.0f}" for end, more in ends)]) + " |"
