@@ -1,12 +1,12 @@
 # `cmake --install build`, and `find_package(slipscale)` for programs built on the library.
 #
-# Two components. `slipscale`: library, headers, slide, homogenize, relocalize. `morphology`: that program, its library and
+# Two components. `slipscale`: library, headers, slide, homogenize, relocalize, modes. `morphology`: that program, its library and
 # headers, which are passed on under gmsh's GNU General Public License. `cmake --install build --component slipscale`
 # leaves the second out; find_package(slipscale COMPONENTS morphology) asks for it.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/slipscale)
 
-install(TARGETS slide homogenize relocalize RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT slipscale)
+install(TARGETS slide homogenize relocalize modes RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT slipscale)
 install(TARGETS slipscale EXPORT slipscaleTargets COMPONENT slipscale)
 install(DIRECTORY include/slipscale ${CMAKE_CURRENT_BINARY_DIR}/include/slipscale
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT slipscale PATTERN morphology EXCLUDE PATTERN "*.md" EXCLUDE)
@@ -25,6 +25,6 @@ write_basic_package_version_file(slipscaleConfigVersion.cmake COMPATIBILITY Same
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/slipscaleConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/slipscaleConfigVersion.cmake
-  cmake/FindPETSc.cmake cmake/FindHDF5MPI.cmake cmake/FindMETIS.cmake cmake/FindFFTW3.cmake
+  cmake/FindPETSc.cmake cmake/FindSLEPc.cmake cmake/FindHDF5MPI.cmake cmake/FindMETIS.cmake cmake/FindFFTW3.cmake
   cmake/FindLibYAML.cmake
   DESTINATION ${package_dir} COMPONENT slipscale)

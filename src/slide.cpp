@@ -131,7 +131,7 @@ void slide(Options& options) {
 
   const LogStage steps("Steps");
   for (long n = body.steps_done(); n <= step.count; ++n) {
-    body.advance(recorder.due(n));
+    body.advance(recorder.observes(n));
     recorder.after_step(n);
     checkpoints.after_step(n);
   }

@@ -9,6 +9,11 @@
 #endif
 
 namespace slipscale {
+namespace {
+
+constexpr std::align_val_t line{64};  // of the cache
+
+}  // namespace
 
 #if defined(__linux__)
 namespace {
@@ -23,7 +28,7 @@ std::size_t whole_pages(std::size_t bytes) {
 }  // namespace
 
 void* take_pages(std::size_t bytes) {
-  if (bytes < large_page) return ::operator new(bytes);
+  if (bytes < large_page) return ::operator new(bytes, line);
   const std::size_t size = whole_pages(bytes);
   void* const all =
       mmap(nullptr, size + large_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -38,15 +43,15 @@ void* take_pages(std::size_t bytes) {
 
 void give_back_pages(void* memory, std::size_t bytes) noexcept {
   if (bytes < large_page)
-    ::operator delete(memory);
+    ::operator delete(memory, line);
   else
     (void)munmap(memory, whole_pages(bytes));
 }
 
 #else
 
-void* take_pages(std::size_t bytes) { return ::operator new(bytes); }
-void give_back_pages(void* memory, std::size_t) noexcept { ::operator delete(memory); }
+void* take_pages(std::size_t bytes) { return ::operator new(bytes, line); }
+void give_back_pages(void* memory, std::size_t) noexcept { ::operator delete(memory, line); }
 
 #endif
 

@@ -1,11 +1,12 @@
 #include "slipscale/files/continued_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 
-#include "slipscale/base/content_checksum.hpp"
+#include "object_header.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
@@ -21,6 +22,15 @@ std::string text_of(const std::vector<hsize_t>& shape) {
   std::string text;
   for (const hsize_t n : shape) text += (text.empty() ? "" : " x ") + std::to_string(n);
   return text.empty() ? "one number" : text;
+}
+
+/// Rows that are declared and nothing else would take minutes to read, or to cut off.
+void expect_held(hid_t dataset, const std::string& path, const std::vector<hsize_t>& shape, hid_t type) {
+  const double bytes = std::accumulate(shape.begin(), shape.end(), static_cast<double>(H5Tget_size(type)),
+                                       std::multiplies<>());
+  require(bytes <= static_cast<double>(H5Dget_storage_size(dataset)),
+          format("'{}' declares {} rows, more than it holds", path, shape[0]));
+  require(chunks_are_sound(dataset), format("'{}' is damaged", path));
 }
 
 }  // namespace
@@ -81,7 +91,47 @@ Hdf5Dataset expect_series(hid_t file, const std::string& path, hid_t type,
   require(there >= rows, format("'{}' has {} of the {} rows that were written", path, there, rows));
   const Hdf5Properties creation(hdf5(H5Dget_create_plist(dataset), path));
   require(H5Pget_layout(creation) == H5D_CHUNKED, format("'{}' cannot grow", path));
+  shape[0] = there;
+  expect_held(dataset, path, shape, type);
   return dataset;
+}
+
+ContentChecksum content_begun(const std::string& path, const std::vector<hsize_t>& shape) {
+  ContentChecksum content;
+  content.add(path.data(), path.size());
+  content.add(shape.data(), shape.size() * sizeof(hsize_t));
+  return content;
+}
+
+std::uint64_t contents_of_view(hid_t view, const std::string& path) {
+  const Hdf5Properties creation(hdf5(H5Dget_create_plist(view), path));
+  double elsewhere = 0;  // what entries are that nothing fills
+  std::size_t count = 0;
+  hdf5(H5Pget_fill_value(creation, H5T_NATIVE_DOUBLE, &elsewhere), path);
+  hdf5(H5Pget_virtual_count(creation, &count), path);
+  ContentChecksum content = content_begun(path, shape_of(view, path));
+  const Hdf5Type type(hdf5(H5Dget_type(view), path));
+  std::size_t size = 0;
+  hdf5(H5Tencode(type, nullptr, &size), path);
+  std::vector<std::byte> encoded(size);
+  hdf5(H5Tencode(type, encoded.data(), &size), path);
+  content.add(encoded.data(), encoded.size());
+  content.add(&elsewhere, sizeof elsewhere);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::array<char, 256> file{}, dataset{};
+    hdf5(static_cast<hid_t>(H5Pget_virtual_filename(creation, k, file.data(), file.size())), path);
+    hdf5(static_cast<hid_t>(H5Pget_virtual_dsetname(creation, k, dataset.data(), dataset.size())), path);
+    content.add(file.data(), file.size());
+    content.add(dataset.data(), dataset.size());
+    for (const auto space_of : {H5Pget_virtual_vspace, H5Pget_virtual_srcspace}) {
+      const Hdf5Space space(hdf5(space_of(creation, k), path));
+      std::array<hsize_t, H5S_MAX_RANK> first{}, last{};
+      hdf5(H5Sget_select_bounds(space, first.data(), last.data()), path);
+      content.add(first.data(), sizeof first);
+      content.add(last.data(), sizeof last);
+    }
+  }
+  return content.value();
 }
 
 std::uint64_t contents_of(hid_t file, const std::string& group) {
@@ -91,13 +141,16 @@ std::uint64_t contents_of(hid_t file, const std::string& group) {
     const std::string path = group + "/" + name;
     const Hdf5Dataset dataset(hdf5(H5Dopen2(file, path.c_str(), H5P_DEFAULT), path));
     const Hdf5Properties creation(hdf5(H5Dget_create_plist(dataset), path));
-    if (H5Pget_layout(creation) == H5D_VIRTUAL) continue;
+    if (H5Pget_layout(creation) == H5D_VIRTUAL) {
+      sum += contents_of_view(dataset, path);
+      continue;
+    }
     const Hdf5Type stored(hdf5(H5Dget_type(dataset), path)),
         type(hdf5(H5Tget_native_type(stored, H5T_DIR_ASCEND), path));
-    ContentChecksum content;
-    content.add(path.data(), path.size());
     const std::vector<hsize_t> shape = shape_of(dataset, path);
+    ContentChecksum content = content_begun(path, shape);
     require(!shape.empty(), format("'{}' is a single number", path));
+    expect_held(dataset, path, shape, type);
     const hsize_t row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{H5Tget_size(type)},
                                         std::multiplies<>()),
                   most = std::max<hsize_t>(1, piece_bytes / std::max<hsize_t>(row, 1));

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "object_header.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
@@ -41,6 +42,7 @@ std::size_t stored_entries(hid_t dataset, const std::string& path, bool of_whole
   const double declared = count * static_cast<double>(size);
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
   require(declared <= 1032 * stored, path, "declares more numbers than the file holds");
+  require(chunks_are_sound(dataset), path, "is damaged");
   return static_cast<std::size_t>(count);
 }
 

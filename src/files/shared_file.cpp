@@ -7,7 +7,6 @@
 #include <functional>
 #include <numeric>
 
-#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/collect_rows.hpp"
@@ -139,8 +138,7 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
     more(dataset);
   });
   std::string fault;
-  ContentChecksum content;
-  content.add(about.path.data(), about.path.size());
+  ContentChecksum content = content_begun(about.path, slice.shape);
   const std::size_t bytes = row_bytes(slice.shape, type);
   // A rank that cannot write goes on receiving, so that nobody waits for it.
   collect_rows(comm_, {slice.begin, slice.count, bytes}, rows,
@@ -203,6 +201,7 @@ void SharedFile::write_view(const DatasetDescription& about, const DatasetView& 
     hdf5(H5Pset_create_intermediate_group(links, 1), what);
     const Hdf5Dataset dataset(
         hdf5(H5Dcreate2(file_, what.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), what));
+    contents_ += contents_of_view(dataset, what);
     describe_dataset(dataset, about.units, about.text);
   });
 }

@@ -186,14 +186,14 @@ void Recorder::after_step(long n) {
     const LogEvent::Scope scope(event);
     force_.add(n);
   }
-  if (due(n)) observe(n);
+  if (observes(n) != Observed::nothing) observe(n);
   static const LogEvent event("Progress");
   const LogEvent::Scope scope(event);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
 
 void Recorder::observe(long n) {
-  const bool row = n % history_every_ == 0 || n == last_, bulk = row || fields_due(n) || statistics_due(n);
+  const bool row = row_due(n), bulk = bulk_due(n);
   static const LogEvent observation("Observation"), writing("Writing");
   std::optional<LogEvent::Scope> scope(observation);
   Observation seen = observer_.observe(bulk);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "by_shape.hpp"
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale {
@@ -82,11 +83,12 @@ AssembledPairs assemble_pairs(const Mesh& mesh, const std::vector<Material>& mat
   // Of the terms, over the largest modulus; to tell what rounding leaves.
   std::vector<float> size(pairs.high.size(), 0);
   const double modulus = largest_modulus(materials);
+  ByShape<ElementStiffness> stiffness;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const auto nodes = mesh.cells.nodes_of(cell);
-    const auto shape = mesh.shape_of(cell);
-    const auto k =
-        element_stiffness({shape.data(), nodes.size()}, materials[mesh.cells.region[cell]].stiffness);
+    const ElementStiffness& k = stiffness.of(mesh, cell, [&](std::span<const Vector2> shape) {
+      return element_stiffness(shape, materials[mesh.cells.region[cell]].stiffness);
+    });
     for_pairs(mesh, cell, [&](int a, int b) {
       int pair = pairs.first[row_of[nodes[a]]];
       while (pairs.high[pair] != nodes[b]) ++pair;

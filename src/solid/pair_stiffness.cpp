@@ -1,7 +1,6 @@
 #include "slipscale/solid/pair_stiffness.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "assembled_pairs.hpp"
 #include "quartets.hpp"
@@ -20,15 +19,6 @@ constexpr int long_run = 4;
 
 /// What it costs to gather a run, in units of a node whose pairs are visited; measured.
 double cost_of(int nodes) { return nodes < long_run ? 1.2 * nodes : 0.6 + 0.3 * nodes; }
-
-/// By the way through `gather_runs`.
-bool takes_fewer_strokes(const Run& a, const Run& b) {
-  const auto way = [](const Run& run) {
-    const int nodes = run.end - run.begin, stroke = 3 * long_run;
-    return std::tuple(nodes / stroke, nodes % stroke / long_run, nodes % long_run != 0, run.last - run.first);
-  };
-  return way(a) < way(b);
-}
 
 /// 1 for each owned node whose force is gathered: those of the chunks where this costs less.
 std::vector<char> choose_gathered(const AssembledPairs& pairs, const RowTerms& rows, int owned) {
@@ -133,15 +123,11 @@ void PairStiffness<Scalar>::reserve(const AssembledPairs& pairs, const std::vect
   high_.reserve(kept), blocks_.reserve(kept), rows_.reserve(kept_rows);
 }
 
-/// The owned nodes of a chunk: in runs where these are long, else in quartets. They are put in an order in
-/// which those that take the same way through the loops follow one another: each way that a processor
-/// foresees wrongly costs as much as a link or two.
+/// The owned nodes of a chunk: in runs where these are long, else in quartets.
 template <class Scalar>
 void PairStiffness<Scalar>::add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists,
                                          Quartets& quartets) {
   gathered_ += end - begin;
-  const auto first_run = static_cast<std::ptrdiff_t>(runs_.size());
-  std::vector<QuartetDraft> drafts;
   std::vector<Term> terms, next;
   int between = begin;  // where the nodes start that are in no run
   rows.of(begin, terms);
@@ -152,7 +138,7 @@ void PairStiffness<Scalar>::add_gathered(const RowTerms& rows, int begin, int en
       if (next != terms) break;
     }
     if (stop - node >= long_run) {
-      if (between < node) add_quartets(rows, {between, node, 0, 0}, begin, end, lists, quartets, drafts);
+      if (between < node) add_quartets(rows, {between, node, 0, 0}, begin, end, lists, quartets);
       const auto [first, last] = lists.place(terms);
       runs_.push_back({node, stop, first, last});
       repeating_ += stop - node;
@@ -161,25 +147,21 @@ void PairStiffness<Scalar>::add_gathered(const RowTerms& rows, int begin, int en
     std::swap(terms, next);
     node = stop;
   }
-  if (between < end) add_quartets(rows, {between, end, 0, 0}, begin, end, lists, quartets, drafts);
-  std::stable_sort(runs_.begin() + first_run, runs_.end(), takes_fewer_strokes);
-  std::ranges::stable_sort(drafts, &QuartetDraft::is_before);
-  for (const auto& draft : drafts) quartets_.push_back(quartets.add(draft));
+  if (between < end) add_quartets(rows, {between, end, 0, 0}, begin, end, lists, quartets);
 }
 
 /// The nodes of a stretch; where they are no multiple of four, with nodes beside it, whose forces are
 /// gathered a second time, to the same bits. `begin` and `end` are those of the chunk.
 template <class Scalar>
 void PairStiffness<Scalar>::add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end,
-                                         TermLists& lists, const Quartets& quartets,
-                                         std::vector<QuartetDraft>& drafts) {
+                                         TermLists& lists, Quartets& quartets) {
   std::array<std::vector<Term>, 4> terms;
   for (int node = stretch.begin; node < stretch.end; node += 4) {
     const int first = std::max(begin, std::min(node, end - 4));
     if (first + 4 <= end) {
       for (int k = 0; k < 4; ++k) rows.of(first + k, terms[k]);
-      if (auto draft = quartets.draft(first, terms)) {
-        drafts.push_back(std::move(*draft));
+      if (const auto quartet = quartets.make(first, terms)) {
+        quartets_.push_back(*quartet);
         continue;
       }
     }
@@ -209,7 +191,7 @@ void PairStiffness<Scalar>::add_row(const AssembledPairs& pairs, int row, const 
 }
 
 /// A node may move once nothing reads its displacement any more: its own row, and the rows of its neighbours
-/// that are gathered.
+/// that are gathered. Four at a time, so that those who move them read whole lines of the cache.
 template <class Scalar>
 void PairStiffness<Scalar>::complete_in_order(const AssembledPairs& pairs,
                                               const std::vector<char>& gathered) {
@@ -228,13 +210,15 @@ void PairStiffness<Scalar>::complete_in_order(const AssembledPairs& pairs,
   for (int k = 0; k < static_cast<int>(chunks_.size()); ++k) {
     chunks_[k].complete_begin = complete;
     while (complete < owned_ && last_reader[complete] <= k) ++complete;
+    if (k + 1 < static_cast<int>(chunks_.size()))
+      complete = std::max(chunks_[k].complete_begin, complete / 4 * 4);
     chunks_[k].complete_end = complete;
   }
   if (gathered_ < owned_) return;
   for (const Chunk& chunk : chunks_)
     passing_size_ =
         std::max(passing_size_, static_cast<std::size_t>(chunk.gathered_end - chunk.complete_begin));
-  passing_size_ *= rooms_for_what_passes;
+  passing_size_ = rooms_for_what_passes * (passing_size_ + 4);
 }
 
 template class PairStiffness<double>;

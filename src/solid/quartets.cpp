@@ -50,7 +50,7 @@ bool same(const Link& a, const Link& b) { return a.offset == b.offset && a.place
 }  // namespace
 
 /// Where these blocks stand in `values`, in fours; they are added where they do not.
-int Quartets::place(std::span<const double> blocks) {
+int Quartets::place(const std::vector<double>& blocks) {
   Digest digest;
   for (const double value : blocks) digest.add(std::bit_cast<std::uint64_t>(value));
   const auto [found, is_new] = known_blocks_.try_emplace(digest.value());
@@ -65,38 +65,26 @@ int Quartets::place(std::span<const double> blocks) {
   return place;
 }
 
-bool QuartetDraft::is_before(const QuartetDraft& other) const {
-  if (parts.size() != other.parts.size()) return parts.size() < other.parts.size();
-  return std::ranges::lexicographical_compare(parts, other.parts, {}, &Part::turns, &Part::turns);
-}
-
-std::optional<QuartetDraft> Quartets::draft(int begin, const std::array<std::vector<Term>, 4>& terms) const {
+std::optional<Quartet> Quartets::make(int begin, const std::array<std::vector<Term>, 4>& terms) {
   const auto places = merged(terms);
   const auto outside = [&](const Place& place) {
     return begin + place.offset < 0 || begin + 3 + place.offset >= count_;
   };
   if (places.empty() || std::ranges::any_of(places, outside)) return std::nullopt;
-  QuartetDraft draft{begin, {}};
+  std::vector<Link> own;
+  std::vector<double> blocks;
   std::array<std::size_t, 4> next{};
+  Digest digest;
   for (const Place& place : places) {
-    QuartetDraft::Part part{static_cast<int>(place.offset), place.turns != 0, {}};
+    blocks.assign(place.turns ? 4 : 12, 0);
     for (std::size_t node = 0; node < 4; ++node) {
       if (next[node] == terms[node].size() || place_of(terms[node][next[node]]) != place) continue;
       const Term& term = terms[node][next[node]++];
-      if (!part.turns) part.blocks[2 * node] = term.straight[0], part.blocks[2 * node + 1] = term.straight[1];
-      part.blocks[(part.turns ? 0 : 8) + node] = term.crossed[0];
+      if (!place.turns) blocks[2 * node] = term.straight[0], blocks[2 * node + 1] = term.straight[1];
+      blocks[(place.turns ? 0 : 8) + node] = term.crossed[0];
     }
-    draft.parts.push_back(part);
-  }
-  return draft;
-}
-
-Quartet Quartets::add(const QuartetDraft& draft) {
-  std::vector<Link> own;
-  Digest digest;
-  for (const QuartetDraft::Part& part : draft.parts) {
-    const int stands = place(std::span(part.blocks).first(part.turns ? 4 : 12));
-    own.push_back({part.offset, part.turns ? -1 - stands : stands});
+    const int stands = this->place(blocks);
+    own.push_back({static_cast<int>(place.offset), place.turns ? -1 - stands : stands});
     digest.add(static_cast<std::uint64_t>(own.back().offset));
     digest.add(static_cast<std::uint64_t>(own.back().place));
   }
@@ -107,7 +95,7 @@ Quartet Quartets::add(const QuartetDraft& draft) {
     kept = {static_cast<int>(links.size()), static_cast<int>(links.size() + own.size())};
     links.insert(links.end(), own.begin(), own.end());
   }
-  return Quartet{draft.begin, kept.first, kept.last};
+  return Quartet{begin, kept.first, kept.last};
 }
 
 }  // namespace slipscale

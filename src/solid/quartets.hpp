@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -11,20 +10,6 @@
 #include "slipscale/solid/repeated_rows.hpp"
 
 namespace slipscale {
-
-/// A quartet with the blocks of its links still beside it.
-struct QuartetDraft {
-  struct Part {
-    int offset;
-    bool turns;
-    std::array<double, 12> blocks;
-  };
-  int begin;
-  std::vector<Part> parts;
-
-  /// An order in which those that take the same way through the loops follow one another.
-  bool is_before(const QuartetDraft& other) const;
-};
 
 /// Makes quartets, and keeps what they share once.
 class Quartets {
@@ -35,14 +20,13 @@ class Quartets {
   /// Of the nodes from `begin` on, whose terms these are. None where the terms of two of them cannot be added
   /// in one order: where a neighbour is a ghost, which lies behind whatever its number; nor where one would
   /// look beyond the arrays for a neighbour that only another has.
-  std::optional<QuartetDraft> draft(int begin, const std::array<std::vector<Term>, 4>& terms) const;
-  Quartet add(const QuartetDraft& draft);
+  std::optional<Quartet> make(int begin, const std::array<std::vector<Term>, 4>& terms);
 
   LargeArray<Link> links;
   LargeArray<double> values;
 
  private:
-  int place(std::span<const double> blocks);
+  int place(const std::vector<double>& blocks);
 
   int count_;
   struct Kept {

@@ -193,7 +193,7 @@ TEST(RepeatedRows, HandOverForcesInPassing) {
     const PairStiffness<double> stiffness(mesh, two_materials());
     ASSERT_EQ(stiffness.passing_size() > 0, stiffness.gathered() == mesh.nodes.owned);
     if (stiffness.passing_size() == 0) continue;
-    std::vector<Vector2> passing(stiffness.passing_size());
+    LargeArray<Vector2> passing(stiffness.passing_size());
     for (int go = 0; go < 2; ++go) {  // what a sweep leaves behind disturbs no other
       int next = 0;
       stiffness.multiply_passing(u.data(), passing, [&](int begin, int end, const Vector2* force) {

@@ -6,8 +6,8 @@
 namespace slipscale {
 
 /// Memory that starts on a large page of the system and asks for such pages, where there is enough of it to
-/// fill some; else from the heap. A sweep through many arrays at once spends a quarter of its time on finding
-/// pages of 4 KiB.
+/// fill one; else from the heap, on a line of the cache. A sweep through many arrays at once spends a quarter
+/// of its time on finding pages of 4 KiB.
 void* take_pages(std::size_t bytes);
 void give_back_pages(void* memory, std::size_t bytes) noexcept;
 

@@ -67,6 +67,15 @@ class FreeMotion {
 
   void operator()(int begin, int end, const Vector2* force) const { move_(state_, begin, end, force); }
 
+  /// Asks for what the motion of these nodes needs and nothing before it touches.
+  void prepare(int begin, int end) const {
+    constexpr int nodes_of_a_line = 4;
+    for (int i = begin; i < end; i += nodes_of_a_line) {
+      __builtin_prefetch(state_.arrays.predictor + i, 1);
+      if (i % (2 * nodes_of_a_line) == 0) __builtin_prefetch(state_.arrays.inverse_mass + i);
+    }
+  }
+
  private:
   using Move = void (*)(const FreeMotionState&, int begin, int end, const Vector2* force);
   static Move moving(const BulkPhysics& physics, Instructions instructions);

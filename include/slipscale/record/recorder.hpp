@@ -28,9 +28,10 @@ class Recorder {
   Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time,
            const Restart* restart = nullptr);
 
-  /// Whether step n is to be observed.
-  bool due(long n) const {
-    return n % history_every_ == 0 || n == last_ || contact_due(n) || fields_due(n) || statistics_due(n);
+  /// What of step n is to be observed: rows of contact ask for no more than the boundary.
+  Observed observes(long n) const {
+    if (bulk_due(n)) return Observed::everything;
+    return contact_due(n) ? Observed::boundary : Observed::nothing;
   }
   /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the
   /// state is no longer finite, when energy appears from nowhere, or when the disk is full or the folder
@@ -58,6 +59,8 @@ class Recorder {
   const TimeStep& time() const { return time_; }
 
  private:
+  bool row_due(long n) const { return n % history_every_ == 0 || n == last_; }
+  bool bulk_due(long n) const { return row_due(n) || fields_due(n) || statistics_due(n); }
   bool contact_due(long n) const { return has_contact_ && (n % contact_every_ == 0 || n == last_); }
   bool fields_due(long n) const;
   bool statistics_due(long n) const { return window_ && window_->due(n); }

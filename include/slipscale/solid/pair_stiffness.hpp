@@ -21,7 +21,6 @@ struct AssembledPairs;
 class RowTerms;
 class TermLists;
 class Quartets;
-struct QuartetDraft;
 
 /// The stiffness of a body as a graph of node pairs.
 ///
@@ -48,7 +47,8 @@ class PairStiffness {
   /// force = K displacement, N/m, at the owned nodes; what it leaves at ghosts is meaningless. Both arrays
   /// hold all local nodes. `complete(begin, end)` is called for runs of owned nodes, in ascending order and
   /// each node once, as soon as their force is complete; from then on nothing reads their displacement, which
-  /// may be advanced at once, while all of it is still in the cache.
+  /// may be advanced at once, while all of it is still in the cache. Some time before,
+  /// `complete.prepare(begin, end)` is called, where there is such.
   template <class Complete>
   void multiply(Vector2* displacement, Vector2* force, Complete&& complete) const;
 
@@ -60,7 +60,7 @@ class PairStiffness {
   /// `passing` of `passing_size()` entries, and go no further than the cache. `complete(begin, end, force)`
   /// finds that of node i at force[i].
   template <class Complete>
-  void multiply_passing(Vector2* displacement, std::vector<Vector2>& passing, Complete&& complete) const;
+  void multiply_passing(Vector2* displacement, LargeArray<Vector2>& passing, Complete&& complete) const;
   /// Zero where some forces are not gathered but made by visits.
   std::size_t passing_size() const { return passing_size_; }
 
@@ -100,13 +100,15 @@ class PairStiffness {
   void lay_out(const AssembledPairs& pairs, const RowTerms& rows, const std::vector<char>& gathered);
   void add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists, Quartets& quartets);
   void add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end, TermLists& lists,
-                    const Quartets& quartets, std::vector<QuartetDraft>& drafts);
+                    Quartets& quartets);
   bool visited(int node, const std::vector<char>& gathered) const { return node < owned_ && !gathered[node]; }
   void reserve(const AssembledPairs& pairs, const std::vector<char>& gathered);
   void add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered);
   void complete_in_order(const AssembledPairs& pairs, const std::vector<char>& gathered);
   void visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
   void gather(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
+  template <class Complete>
+  void prepare(const Chunk& chunk, Complete& complete) const;
 
   int owned_ = 0, count_ = 0;
   int repeating_ = 0, gathered_ = 0;
@@ -130,6 +132,7 @@ template <class Complete>
 void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Complete&& complete) const {
   for (int ghost = owned_; ghost < count_; ++ghost) force[ghost] = {0, 0};
   for (const Chunk& chunk : chunks_) {
+    prepare(chunk, complete);
     if (chunk.rows_begin < chunk.rows_end) visit(chunk, displacement, force);
     gather(chunk, displacement, force);
     if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end);
@@ -138,19 +141,28 @@ void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Comp
 
 template <class Scalar>
 template <class Complete>
-void PairStiffness<Scalar>::multiply_passing(Vector2* displacement, std::vector<Vector2>& passing,
+void PairStiffness<Scalar>::multiply_passing(Vector2* displacement, LargeArray<Vector2>& passing,
                                              Complete&& complete) const {
   long first = 0;  // the node whose force is at the front
   for (const Chunk& chunk : chunks_) {
     if (chunk.gathered_end - first > static_cast<long>(passing.size())) {
-      std::copy(passing.data() + (chunk.complete_begin - first),
-                passing.data() + (chunk.gathered_begin - first), passing.data());
-      first = chunk.complete_begin;
+      const long front = chunk.complete_begin / 4 * 4;  // as the arrays by node lie in the cache
+      std::copy(passing.data() + (front - first), passing.data() + (chunk.gathered_begin - first),
+                passing.data());
+      first = front;
     }
     Vector2* const force = passing.data() - first;
+    prepare(chunk, complete);
     gather(chunk, displacement, force);
     if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end, force);
   }
+}
+
+template <class Scalar>
+template <class Complete>
+void PairStiffness<Scalar>::prepare(const Chunk& chunk, Complete& complete) const {
+  if constexpr (requires { complete.prepare(0, 0); })
+    complete.prepare(chunk.complete_begin, chunk.complete_end);
 }
 
 template <class Scalar>

@@ -1,0 +1,173 @@
+#include "slipscale/modes/mode_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "inner.hpp"
+#include "slipscale/base/log.hpp"
+#include "slipscale/base/parallel.hpp"
+#include "slipscale/base/print.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr int most_rounds = 40;
+constexpr int most_in_vain = 4;              ///< rounds without half the residual
+constexpr double of_largest = 1e-2;          ///< directions of less than this part of the residuals wait
+constexpr double of_column = 1e-5;           ///< of a new direction: what must be new of it
+constexpr double same = 1e-6;                ///< exponents that are one, relative
+constexpr Eigen::Index most_unknowns = 750;  ///< of a companion matrix, for the second look
+
+bool is_number(const SlidingMode& mode) { return std::isfinite(std::norm(mode.exponent)); }
+
+/// The vector in a basis that has grown.
+void fill_up(Eigen::VectorXcd& vector, Eigen::Index size) {
+  const Eigen::Index old = vector.size();
+  vector.conservativeResize(size);
+  vector.tail(size - old).setZero();
+}
+
+/// Newton's method for the modes of a list, shared out among the ranks.
+void find_again(MPI_Comm comm, const ReducedProblem& problem, const SlidingLaw& law,
+                std::vector<SlidingMode>& modes, const std::vector<std::size_t>& which) {
+  static const LogEvent event("ModesNewton");
+  const LogEvent::Scope scope(event);
+  const auto ranks = static_cast<std::size_t>(ranks_of(comm)), rank = static_cast<std::size_t>(rank_of(comm));
+  for (std::size_t n = rank; n < which.size(); n += ranks) {
+    SlidingMode& mode = modes[which[n]];
+    const bool known = mode.vector.size() > 0;
+    if (known) fill_up(mode.vector, problem.size());
+    const ReducedMode found = nearest_mode(problem, law, mode.exponent, mode.vector);
+    mode.exponent = found.exponent;
+    mode.vector = found.vector;
+  }
+  for (std::size_t n = 0; n < which.size(); ++n) {
+    SlidingMode& mode = modes[which[n]];
+    mode.vector.conservativeResize(problem.size());
+    const int owner = static_cast<int>(n % ranks);
+    MPI_Bcast(&mode.exponent, 1, MPI_CXX_DOUBLE_COMPLEX, owner, comm);
+    MPI_Bcast(mode.vector.data(), static_cast<int>(mode.vector.size()), MPI_CXX_DOUBLE_COMPLEX, owner, comm);
+  }
+}
+
+/// The directions that residuals have, but for what is little beside the largest. Columns of length 1.
+Columns main_directions(MPI_Comm comm, const Column& mass, const Columns& residuals) {
+  const Eigen::MatrixXd gram = inner(comm, residuals, mass.cwiseInverse().asDiagonal() * residuals);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+  const Eigen::VectorXd& value = solver.eigenvalues();
+  const double least = of_largest * of_largest * value[value.size() - 1];
+  const auto kept = (value.array() > least).count();
+  return residuals *
+         (solver.eigenvectors().rightCols(kept) * value.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal());
+}
+
+bool is_known(const std::vector<SlidingMode>& modes, Complex p) {
+  return std::ranges::any_of(
+      modes, [&](const SlidingMode& mode) { return std::abs(mode.exponent - p) <= same * std::abs(p); });
+}
+
+double frequency_of(Complex p) { return p.imag() / (2 * std::numbers::pi); }
+
+/// Growth descending; where it differs by rounding alone, as of modes that neither grow nor decay, frequency
+/// ascending, so that the order does not depend on the number of ranks.
+class Order {
+ public:
+  explicit Order(double to) : unit_(rounding * 2 * std::numbers::pi * to) {}
+  bool operator()(const Complex& a, const Complex& b) const {
+    const double one = std::round(a.real() / unit_), other = std::round(b.real() / unit_);
+    return one != other ? one > other : a.imag() < b.imag();
+  }
+
+ private:
+  static constexpr double rounding = 1e-8;
+  double unit_;
+};
+
+/// Exponents that are looked for, growth descending.
+std::vector<Complex> candidates(const ReducedProblem& problem, const SlidingLaw& law, double to) {
+  static const LogEvent event("ModesCompanion");
+  const LogEvent::Scope scope(event);
+  std::vector<Complex> found = all_exponents(problem, law);
+  // A real exponent comes with rounding in its imaginary part, or without.
+  std::erase_if(found, [&](const Complex& p) {
+    const bool is_real = std::abs(p.imag()) <= 1e-9 * std::abs(p);
+    return frequency_of(p) > to || (is_real && p.real() <= 0);
+  });
+  std::ranges::sort(found, Order(to));
+  return found;
+}
+
+}  // namespace
+
+ModesFound improve(ModesBasis& basis, const SlidingLaw& law, std::vector<SlidingMode> modes,
+                   double tolerance) {
+  const MPI_Comm comm = basis.body().comm();
+  ModesFound found;
+  std::vector<std::size_t> open(modes.size());
+  for (std::size_t k = 0; k < modes.size(); ++k) open[k] = k;
+  double best = 1e300;
+  for (int in_vain = 0; !open.empty() && found.rounds < most_rounds && in_vain < most_in_vain;) {
+    find_again(comm, basis.problem(), law, modes, open);
+    std::erase_if(open, [&](std::size_t k) { return !is_number(modes[k]); });
+    Columns residuals(basis.body().free().size(), 2 * static_cast<Eigen::Index>(open.size()));
+    Eigen::Index columns = 0;
+    double worst = 0;
+    std::vector<std::size_t> still;
+    for (const std::size_t k : open) {
+      const auto residual = basis.residual(law, modes[k]);
+      modes[k].residual = residual.size;
+      if (residual.size <= tolerance) continue;
+      worst = std::max(worst, residual.size);
+      residuals.middleCols(columns, 2) = residual.force / residual.size;
+      columns += 2;
+      still.push_back(k);
+    }
+    open = still;
+    if (open.empty()) break;
+    in_vain = worst < 0.5 * best ? 0 : in_vain + 1;
+    best = std::min(best, worst);
+    const Columns directions = main_directions(comm, basis.body().free().mass(), residuals.leftCols(columns));
+    found.solves += static_cast<int>(directions.cols());
+    ++found.rounds;
+    if (basis.add(basis.body().solve(directions), of_column) == 0) break;
+  }
+  for (SlidingMode& mode : modes)
+    if (is_number(mode)) fill_up(mode.vector, basis.size());
+  found.modes = std::move(modes);
+  return found;
+}
+
+ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim& aim) {
+  ModesFound all;
+  const auto wanted = static_cast<std::size_t>(aim.count);
+  // More than wanted are improved: the order may change.
+  const std::size_t looked_at = wanted + std::max<std::size_t>(2, wanted / 8);
+  for (int look = 0; look < 4; ++look) {
+    if (look > 0 && 3 * basis.size() > most_unknowns) break;
+    const std::vector<Complex> here = candidates(basis.problem(), law, 1.01 * aim.to);
+    std::vector<SlidingMode> fresh;
+    for (std::size_t k = 0; k < std::min(here.size(), looked_at); ++k)
+      if (!is_known(all.modes, here[k])) fresh.push_back({here[k], {}, 0});
+    all.in_window = here.size();
+    if (fresh.empty()) break;
+    ModesFound found = improve(basis, law, std::move(fresh), aim.tolerance);
+    all.rounds += found.rounds;
+    all.solves += found.solves;
+    for (SlidingMode& mode : found.modes)
+      if (is_number(mode) && !is_known(all.modes, mode.exponent)) all.modes.push_back(std::move(mode));
+  }
+  std::erase_if(all.modes, [&](const SlidingMode& mode) { return frequency_of(mode.exponent) > aim.to; });
+  std::ranges::sort(all.modes, Order(aim.to), &SlidingMode::exponent);
+  if (all.modes.size() > wanted) all.modes.resize(wanted);
+  for (SlidingMode& mode : all.modes) fill_up(mode.vector, basis.size());
+  for (const SlidingMode& mode : all.modes)
+    if (mode.residual > aim.tolerance)
+      all.notes.push_back(
+          format("the mode of {:.6g} Hz has a residual of {:.2g}, above -modes_tolerance {:g}: rounding or a "
+                 "cluster of modes allows no less; give a larger tolerance or a larger -modes_basis",
+                 frequency_of(mode.exponent), mode.residual, aim.tolerance));
+  return all;
+}
+
+}  // namespace slipscale
