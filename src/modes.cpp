@@ -86,12 +86,13 @@ void measure_costs(MPI_Comm comm, ModesReport& report) {
 
 void modes(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
-  const ModesChoice choice = read_modes(options);
+  ModesChoice choice = read_modes(options);
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
   know_names(options, mesh);
   const auto materials = read_materials(options, mesh.region_names());
   const Scene scene = read_sliding_scene(options, mesh);
+  read_sweeps(options, scene, choice);
   const Model::Storage storage = read_storage(options);
   const StiffnessKernel kernel = read_kernel(options);
   const auto time = read_scheme_time(options, choice.scheme);
@@ -108,6 +109,8 @@ void modes(Options& options) {
   ModesBasis basis = basis_of_real_modes(state, choice);
   options.refuse_unknown();
   ModesReport report = find_sliding_modes(basis, state, scene, choice, step);
+  for (const SweepChoice& sweep : choice.sweeps)
+    report.sweeps.push_back(sweep_modes(basis, scene, sweep, {choice.to, choice.count, choice.tolerance}));
 
   // Only now do the files of an older run give way.
   const OutputFolder folder(comm, choice.folder, {"modes.yaml", "modes.h5", "modes.xdmf"});

@@ -36,8 +36,9 @@ def shown(folder):
         return {**row, "status": "failed", "reason": "its modes were not found"}
     grow = growing(modes.modes)
     row.update(closed=int(modes.state["nodes_in_contact"]), opened=int(modes.state["nodes_open"]), growing=len(grow))
-    contact = Run(folder).contact
-    found = seen(contact, float(job.params.begin), most=600, noise=1e-6)
+    run = Run(folder)
+    contact = run.contact
+    found = seen(contact, float(run.options["boundary_top_ramp"]), most=600, noise=1e-6)
     if found is None:
         return {**row, "reason": "no stretch in which the same nodes touch and all of them slip"}
     exponents, rows = found

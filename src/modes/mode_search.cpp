@@ -41,6 +41,9 @@ void find_again(MPI_Comm comm, const ReducedProblem& problem, const SlidingLaw& 
     const ReducedMode found = nearest_mode(problem, law, mode.exponent, mode.vector);
     mode.exponent = found.exponent;
     mode.vector = found.vector;
+    if (mode.exponent.imag() >= 0) continue;
+    mode.exponent = std::conj(mode.exponent);
+    mode.vector = mode.vector.conjugate().eval();
   }
   for (std::size_t n = 0; n < which.size(); ++n) {
     SlidingMode& mode = modes[which[n]];
@@ -84,16 +87,15 @@ class Order {
   double unit_;
 };
 
+/// Not the memory of friction, or damping, that dies away before a period is over; what creeps away counts.
+bool is_vibration(Complex p) { return p.real() > -p.imag(); }
+
 /// Exponents that are looked for, growth descending.
 std::vector<Complex> candidates(const ReducedProblem& problem, const SlidingLaw& law, double to) {
   static const LogEvent event("ModesCompanion");
   const LogEvent::Scope scope(event);
   std::vector<Complex> found = all_exponents(problem, law);
-  // A real exponent comes with rounding in its imaginary part, or without.
-  std::erase_if(found, [&](const Complex& p) {
-    const bool is_real = std::abs(p.imag()) <= 1e-9 * std::abs(p);
-    return frequency_of(p) > to || (is_real && p.real() <= 0);
-  });
+  std::erase_if(found, [&](const Complex& p) { return !is_vibration(p) || frequency_of(p) > to; });
   std::ranges::sort(found, Order(to));
   return found;
 }
@@ -157,7 +159,9 @@ ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim&
     for (SlidingMode& mode : found.modes)
       if (is_number(mode) && !is_known(all.modes, mode.exponent)) all.modes.push_back(std::move(mode));
   }
-  std::erase_if(all.modes, [&](const SlidingMode& mode) { return frequency_of(mode.exponent) > aim.to; });
+  std::erase_if(all.modes, [&](const SlidingMode& mode) {
+    return !is_vibration(mode.exponent) || frequency_of(mode.exponent) > aim.to;
+  });
   std::ranges::sort(all.modes, Order(aim.to), &SlidingMode::exponent);
   if (all.modes.size() > wanted) all.modes.resize(wanted);
   for (SlidingMode& mode : all.modes) fill_up(mode.vector, basis.size());

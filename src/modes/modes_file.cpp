@@ -140,6 +140,27 @@ void write_contact(MPI_Comm comm, SharedFile& file, const Mesh& mesh, const Mode
               [](const ModeMeasures& m) -> Eigen::VectorXd { return m.tangential.imag(); });
 }
 
+void write_sweep(MPI_Comm comm, SharedFile& file, const ModesSweep& sweep) {
+  const std::string group = "/sweep/" + sweep.choice.name + "/";
+  const std::size_t points = sweep.choice.values.size();
+  file.write({group + "value", sweep.choice.unit, "values of the sweep"}, slice_of_root(comm, {points}),
+             H5T_NATIVE_DOUBLE, sweep.choice.values.data());
+  const auto write = [&](const std::string& name, const std::string& units, const std::string& text,
+                         const auto& of) {
+    std::vector<double> rows;
+    for (const ModePath& path : sweep.paths)
+      for (std::size_t k = 0; k < points; ++k) rows.push_back(of(path, k));
+    file.write({group + name, units, text}, slice_of_root(comm, {sweep.paths.size(), points}),
+               H5T_NATIVE_DOUBLE, rows.data());
+  };
+  write("growth_rate", "1/s", "of each mode along the sweep; NaN where it is lost",
+        [](const ModePath& path, std::size_t k) { return path.exponent[k].real(); });
+  write("frequency", "Hz", "of each mode along the sweep",
+        [](const ModePath& path, std::size_t k) { return path.exponent[k].imag() / (2 * std::numbers::pi); });
+  write("residual", "1", "of each point on the whole body, relative",
+        [](const ModePath& path, std::size_t k) { return path.residual[k]; });
+}
+
 /// Real and imaginary part of a shape on all local nodes.
 class Shape {
  public:
@@ -188,6 +209,7 @@ void write_modes(MPI_Comm comm, const std::string& folder, const Mesh& mesh, con
   const MeshLayout layout = write_mesh(comm, file, image);
   write_spectrum(comm, file, report);
   write_contact(comm, file, mesh, report, state);
+  for (const ModesSweep& sweep : report.sweeps) write_sweep(comm, file, sweep);
   NodalVector u(comm, mesh.nodes, true);
   std::copy(state.displacement.begin(), state.displacement.end(), u.data());
   u.begin_update();

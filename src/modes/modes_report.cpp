@@ -1,6 +1,7 @@
 #include "slipscale/modes/modes_report.hpp"
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "slipscale/base/print.hpp"
@@ -39,6 +40,21 @@ void write_mode(Yaml& yaml, const ModesReport& report, const ReportedMode& each)
   yaml.exact("residual", each.scheme->residual).end();
 }
 
+/// Numbers that are read back to 12 digits.
+std::string list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : ", ") + (std::isfinite(value) ? format("{:.11e}", value) : ".nan");
+  return "[" + text + "]";
+}
+
+std::vector<double> parts(const ModePath& path, bool frequency) {
+  std::vector<double> found;
+  for (const Complex& p : path.exponent)
+    found.push_back(frequency ? p.imag() / (2 * std::numbers::pi) : p.real());
+  return found;
+}
+
 /// A list of mappings: the first line of each begins with a dash.
 std::string as_list_item(const std::string& text, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
@@ -50,6 +66,44 @@ std::string as_list_item(const std::string& text, int depth) {
     begin = end + 1;
   }
   return lines;
+}
+
+/// `write` makes the lines of each item.
+std::string list_of(const std::string& key, std::size_t count, int depth,
+                    const std::function<void(Yaml& item, std::size_t k)>& write) {
+  std::string text(static_cast<std::size_t>(2 * (depth - 1)), ' ');
+  text += key + (count == 0 ? ": []\n" : ":\n");
+  for (std::size_t k = 0; k < count; ++k) {
+    Yaml item;
+    write(item, k);
+    text += as_list_item(item.str(), depth);
+  }
+  return text;
+}
+
+std::string sweep_yaml(const ModesSweep& sweep) {
+  std::string text = "  " + sweep.choice.name + ":\n";
+  text += "    values: " + list(sweep.choice.values) + "  # " + sweep.choice.unit + "\n";
+  text += "    basis: " + std::to_string(sweep.basis) + "\n";
+  text += "    found_on_the_whole_body_at: " + list(sweep.places) + "\n";
+  text += format("    largest_residual: {:.2e}\n", sweep.worst);
+  text += list_of("becomes_unstable", sweep.limits.size(), 3, [&](Yaml& item, std::size_t k) {
+    const StabilityLimit& limit = sweep.limits[k];
+    item.exact("value", limit.value, sweep.choice.unit).exact("frequency", limit.frequency, "Hz");
+    item.integer("path", static_cast<std::int64_t>(limit.path + 1));
+    item.text("beyond", limit.grows ? "grows" : "decays");
+  });
+  text += list_of("couples", sweep.couplings.size(), 3, [&](Yaml& item, std::size_t k) {
+    const Coupling& coupling = sweep.couplings[k];
+    item.exact("value", coupling.value, sweep.choice.unit).exact("frequency", coupling.frequency, "Hz");
+    item.line("paths", format("[{}, {}]", coupling.paths[0] + 1, coupling.paths[1] + 1), "");
+    item.exact("distance", coupling.distance, "relative");
+  });
+  return text + list_of("paths", sweep.paths.size(), 3, [&](Yaml& item, std::size_t k) {
+           item.line("growth_rate", list(parts(sweep.paths[k], false)), "1/s");
+           item.line("frequency", list(parts(sweep.paths[k], true)), "Hz");
+           item.line("residual", list(sweep.paths[k].residual), "");
+         });
 }
 
 }  // namespace
@@ -91,7 +145,9 @@ std::string describe(const ModesReport& report, const SteadySliding& state) {
   text += table(rows);
   std::string names;
   for (const std::string& region : report.regions) names += (names.empty() ? "" : " + ") + region;
-  return text + "friction work: J/m over a period of a mode that carries 1 J/m, in " + names + "\n";
+  text += "friction work: J/m over a period of a mode that carries 1 J/m, in " + names + "\n";
+  for (const ModesSweep& sweep : report.sweeps) text += "\n" + describe(sweep);
+  return text;
 }
 
 std::string modes_yaml(const ModesReport& report, const SteadySliding& state, const Mesh& mesh,
@@ -104,15 +160,12 @@ std::string modes_yaml(const ModesReport& report, const SteadySliding& state, co
       .exact("tangential_force", state.tangential_force, "N/m, of friction on the body along +x");
   head.end();
   std::string text = head.str();
-  if (report.modes.empty()) {
-    text += "modes: []\n";
-  } else {
-    text += "modes:  # growth rate descending, one of each conjugate pair\n";
-    for (const ReportedMode& each : report.modes) {
-      Yaml item;
-      write_mode(item, report, each);
-      text += as_list_item(item.str(), 1);
-    }
+  text += "# growth rate descending, one of each conjugate pair\n";
+  text += list_of("modes", report.modes.size(), 1,
+                  [&](Yaml& item, std::size_t k) { write_mode(item, report, report.modes[k]); });
+  if (!report.sweeps.empty()) {
+    text += "sweeps:\n";
+    for (const ModesSweep& sweep : report.sweeps) text += sweep_yaml(sweep);
   }
   Yaml tail;
   tail.begin("search");

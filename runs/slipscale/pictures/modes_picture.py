@@ -4,8 +4,8 @@
 
 The folder is one of `modes`. (a) every mode that was reported, growth over frequency, those that grow above zero; then
 the shapes that grow fastest, the deformed block where the motion is largest and a quarter of a period later, colour the
-length of u; last, amplitude and phase of normal and tangential traction of the fastest along the contact. With a sweep the
-stability map stands below. Exits with code 2 and one sentence when there is nothing to plot.
+length of u; last, amplitude and phase of normal and tangential traction of the fastest along the contact. Of each
+sweep the paths of growth stand below. Exits with code 2 and one sentence when there is nothing to plot.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from matplotlib.collections import LineCollection
 from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, ORANGE, VERMILION
 from slipscale.pictures.drawing import length_unit, plt, shown, write_picture
-from slipscale.pictures.modes_map import map_panel
+from slipscale.pictures.modes_sweep import sweep_panel
 from slipscale.reading import UnreadableRun
 from slipscale.reading.modes import Modes
 
@@ -82,7 +82,7 @@ def traction_panel(axes, shapes, k, letter):
     for values, colour, name in ((normal, BLUE, "normal"), (tangential, ORANGE, "tangential")):
         axes.plot(x * scale, np.abs(values) / largest, color=colour, label=name)
         turned = np.where(np.abs(values) > 0.02 * largest, np.degrees(np.angle(values)), np.nan)
-        phase.plot(x * scale, turned, ".", color=colour, markersize=3, alpha=0.7)
+        phase.plot(x * scale, turned, ".", color=colour, markersize=5)
     phase.set(ylabel="phase [degree] (dots)", ylim=(-180, 180), yticks=range(-180, 181, 90))
     axes.legend(loc="upper center")
     axes.grid(alpha=0.25)
@@ -103,7 +103,7 @@ def draw(folder, most):
         raise UnreadableRun(f"{modes.folder / 'modes.yaml'} has no mode: give a higher -modes_to.")
     with modes.shapes as shapes:
         count = min(most, shapes.count)
-        panels = 2 + count + bool(modes.sweep)
+        panels = 1 + count + bool(count) + len(modes.sweeps)
         columns = min(3, panels)
         rows = -(-panels // columns)
         figure, axes = plt.subplots(rows, columns, figsize=(6 * columns, 5.2 * rows), squeeze=False,
@@ -115,8 +115,8 @@ def draw(folder, most):
             shape_panel(next(places), figure, shapes, k, modes.modes[k], next(letters))
         if count:
             traction_panel(next(places), shapes, 0, next(letters))
-        if modes.sweep:
-            map_panel(next(places), figure, modes.sweep, next(letters))
+        for sweep in modes.sweeps:
+            sweep_panel(next(places), sweep, next(letters))
         for left in places:
             left.set_axis_off()
     figure.suptitle(headline(folder, modes), fontsize="large", fontweight="bold")

@@ -65,11 +65,24 @@ class Shapes(OnMesh):
 
 
 @dataclass(frozen=True)
-class SweptPoint:
-    """options: values of what was swept, by name (coefficient, time, …); modes: a list of Mode, growing fastest first."""
+class Sweep:
+    """name of what was swept: coefficient, time, …; values [n]; growth_rate 1/s and frequency Hz [paths, n], nan where a
+    path was lost; limits, pairs of the value where a mode begins or ends to grow and its frequency."""
 
-    options: dict
-    modes: list
+    name: str
+    values: np.ndarray
+    growth_rate: np.ndarray
+    frequency: np.ndarray
+    limits: list
+
+
+def sweep_of(name, entry):
+    paths = entry.get("paths") or []
+    values = np.array(entry["values"], dtype=float)
+    growth, frequency = (np.array([path[part] for path in paths], dtype=float).reshape(-1, len(values))
+                         for part in ("growth_rate", "frequency"))
+    return Sweep(name, values, growth, frequency, [(float(limit["value"]), float(limit["frequency"]))
+                                                   for limit in entry.get("becomes_unstable") or []])
 
 
 class Modes:
@@ -93,11 +106,9 @@ class Modes:
         return dict(self.yaml.get("options") or {})
 
     @cached_property
-    def sweep(self):
-        """SweptPoint of each point, empty without a sweep."""
-        return [SweptPoint({name: float(value) for name, value in entry.items() if isinstance(value, (int, float))
-                            and name != "unstable"}, [mode_of(mode) for mode in entry["modes"] or []])
-                for entry in self.yaml.get("sweep") or []]
+    def sweeps(self):
+        """A Sweep for each option that was swept."""
+        return [sweep_of(name, entry) for name, entry in (self.yaml.get("sweeps") or {}).items()]
 
     @property
     def shapes(self):

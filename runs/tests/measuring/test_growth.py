@@ -57,6 +57,10 @@ class Growth(unittest.TestCase):
         found, used = seen(contact, begin=50 * INTERVAL, noise=1e-9)
         self.assertEqual(used, slice(50, 200))
         self.assertLess(abs(found.p[0] - MODES[0]) / abs(MODES[0]), 1e-8)
+        contact.time = np.append(contact.time[:-1], contact.time[-2] + 0.3 * INTERVAL)  # as at the end of a run
+        found, used = seen(contact, begin=50 * INTERVAL, noise=1e-9)
+        self.assertEqual(used, slice(50, 199))
+        self.assertLess(abs(found.p[0] - MODES[0]) / abs(MODES[0]), 1e-8)
         status[:, 0] = STICK
         self.assertIsNone(seen(contact))
 

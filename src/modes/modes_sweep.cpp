@@ -1,0 +1,232 @@
+#include "slipscale/modes/modes_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "slipscale/base/log.hpp"
+#include "slipscale/base/parallel.hpp"
+#include "slipscale/base/print.hpp"
+#include "sweep_problem.hpp"
+
+namespace slipscale {
+namespace {
+
+constexpr double tolerable = 1e-6;  ///< residual of a point
+constexpr int most_places = 12;     ///< where modes are found on the whole body
+constexpr double same = 1e-6;       ///< exponents that are one, relative
+constexpr double is_near = 0.03;    ///< two modes couple within this distance, relative
+constexpr Complex lost{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+bool is_there(Complex p) { return std::isfinite(p.real()) && std::isfinite(p.imag()); }
+
+SlidingLaw law_at(const Scene& scene, const SweepChoice& choice, std::size_t k) {
+  Scene changed = scene;
+  const double value = choice.values[k];
+  switch (choice.of) {
+    case SweepChoice::Of::coefficient:
+      changed.friction.coefficient = value;
+      break;
+    case SweepChoice::Of::speed:
+      changed.surface->speed = std::copysign(value, scene.surface->speed);
+      if (!scene.friction.by_slip_rate) changed.friction.time = scene.friction.length / value;
+      break;
+    case SweepChoice::Of::time:
+      break;
+  }
+  SlidingLaw law = sliding_law(changed);
+  if (choice.of == SweepChoice::Of::time) law.time = value;
+  return law;
+}
+
+/// A mode found at one of the values.
+struct Anchor {
+  std::size_t at = 0;
+  SlidingMode mode;
+};
+
+/// Follows a mode from its anchor both ways; each step starts where the last two point to.
+ModePath follow(const SweepProblem& part, const std::vector<SlidingLaw>& laws, const Anchor& anchor) {
+  const std::size_t count = laws.size();
+  ModePath path{std::vector<Complex>(count, lost), std::vector<double>(count, lost.real())};
+  for (const int way : {1, -1}) {
+    ReducedMode mode{anchor.mode.exponent, part.part_of(anchor.mode.vector).normalized()};
+    Complex before = mode.exponent;
+    for (auto k = static_cast<std::ptrdiff_t>(anchor.at); k >= 0 && k < static_cast<std::ptrdiff_t>(count);
+         k += way) {
+      const auto at = static_cast<std::size_t>(k);
+      const Complex here = mode.exponent;
+      mode = nearest_mode(part.problem(), laws[at], 2.0 * here - before, mode.vector);
+      if (!is_there(mode.exponent)) break;
+      before = at == anchor.at ? mode.exponent : here;
+      path.exponent[at] = mode.exponent;
+      path.residual[at] = part.residual(laws[at], mode);
+    }
+  }
+  return path;
+}
+
+void share(MPI_Comm comm, ModePath& path, int owner) {
+  const auto count = static_cast<int>(path.exponent.size());
+  MPI_Bcast(path.exponent.data(), count, MPI_CXX_DOUBLE_COMPLEX, owner, comm);
+  MPI_Bcast(path.residual.data(), count, MPI_DOUBLE, owner, comm);
+}
+
+bool passes(const ModePath& path, std::size_t at, Complex p) {
+  return is_there(path.exponent[at]) && std::abs(path.exponent[at] - p) <= same * std::abs(p);
+}
+
+/// Paths of all anchors, each once.
+std::vector<ModePath> follow_all(MPI_Comm comm, const SweepProblem& part, const std::vector<SlidingLaw>& laws,
+                                 const std::vector<Anchor>& anchors) {
+  static const LogEvent event("ModesPaths");
+  const LogEvent::Scope scope(event);
+  std::vector<ModePath> paths;
+  const int ranks = ranks_of(comm), rank = rank_of(comm);
+  for (std::size_t begin = 0; begin < anchors.size();) {
+    // Of one place at a time: those of the next may be on paths that are known then.
+    std::size_t end = begin;
+    std::vector<std::size_t> fresh;
+    for (; end < anchors.size() && anchors[end].at == anchors[begin].at; ++end)
+      if (std::ranges::none_of(paths, [&](const ModePath& path) {
+            return passes(path, anchors[end].at, anchors[end].mode.exponent);
+          }))
+        fresh.push_back(end);
+    std::vector<ModePath> found(fresh.size());
+    for (std::size_t n = 0; n < fresh.size(); ++n) {
+      const int owner = static_cast<int>(n) % ranks;
+      if (owner == rank)
+        found[n] = follow(part, laws, anchors[fresh[n]]);
+      else
+        found[n] = {std::vector<Complex>(laws.size()), std::vector<double>(laws.size())};
+    }
+    for (std::size_t n = 0; n < fresh.size(); ++n) share(comm, found[n], static_cast<int>(n) % ranks);
+    paths.insert(paths.end(), found.begin(), found.end());
+    begin = end;
+  }
+  return paths;
+}
+
+/// The value whose points have the largest residual.
+std::size_t worst_place(const std::vector<ModePath>& paths, double& worst) {
+  std::size_t place = 0;
+  worst = 0;
+  for (const ModePath& path : paths)
+    for (std::size_t k = 0; k < path.residual.size(); ++k)
+      if (path.residual[k] > worst) {
+        worst = path.residual[k];
+        place = k;
+      }
+  return place;
+}
+
+double frequency_of(Complex p) { return p.imag() / (2 * std::numbers::pi); }
+
+void find_limits(ModesSweep& sweep, std::size_t n) {
+  const auto& p = sweep.paths[n].exponent;
+  const auto& values = sweep.choice.values;
+  for (std::size_t k = 0; k + 1 < p.size(); ++k) {
+    if (!is_there(p[k]) || !is_there(p[k + 1]) || (p[k].real() > 0) == (p[k + 1].real() > 0)) continue;
+    const double part = p[k].real() / (p[k].real() - p[k + 1].real());
+    sweep.limits.push_back({n, values[k] + part * (values[k + 1] - values[k]),
+                            frequency_of(p[k] + part * (p[k + 1] - p[k])), p[k + 1].real() > 0});
+  }
+}
+
+void find_couplings(ModesSweep& sweep, std::size_t a, std::size_t b) {
+  const auto &one = sweep.paths[a].exponent, &other = sweep.paths[b].exponent;
+  const auto distance = [&](std::size_t k) { return std::abs(one[k] - other[k]) / std::abs(one[k]); };
+  for (std::size_t k = 1; k + 1 < one.size(); ++k) {
+    const double here = distance(k);
+    if (!(here <= is_near) || !(here <= distance(k - 1)) || !(here < distance(k + 1))) continue;
+    // Two that merely cross go on as they came: growth rates part where modes couple.
+    const double before = std::abs((one[k - 1] - other[k - 1]).real()),
+                 after = std::abs((one[k + 1] - other[k + 1]).real());
+    if (after <= before) continue;
+    sweep.couplings.push_back(
+        {{a, b}, sweep.choice.values[k], frequency_of(0.5 * (one[k] + other[k])), here});
+  }
+}
+
+}  // namespace
+
+void find_events(ModesSweep& sweep) {
+  sweep.limits.clear();
+  sweep.couplings.clear();
+  for (std::size_t n = 0; n < sweep.paths.size(); ++n) {
+    find_limits(sweep, n);
+    for (std::size_t other = n + 1; other < sweep.paths.size(); ++other) find_couplings(sweep, n, other);
+  }
+  std::ranges::sort(sweep.limits, {}, &StabilityLimit::value);
+  std::ranges::sort(sweep.couplings, {}, &Coupling::value);
+}
+
+ModesSweep sweep_modes(ModesBasis& basis, const Scene& scene, const SweepChoice& choice,
+                       const SearchAim& aim) {
+  ModesSweep sweep{choice, {}, {}, {}, 0, {}, 0};
+  const std::size_t count = choice.values.size();
+  std::vector<SlidingLaw> laws;
+  for (std::size_t k = 0; k < count; ++k) laws.push_back(law_at(scene, choice, k));
+  std::set<std::size_t> places;
+  std::vector<Anchor> anchors;
+  const auto find = [&](std::size_t at) {
+    if (!places.insert(at).second) return;
+    sweep.places.push_back(choice.values[at]);
+    for (SlidingMode& mode : find_modes(basis, laws[at], aim).modes) anchors.push_back({at, std::move(mode)});
+  };
+  for (const std::size_t at : {count - 1, count / 2, std::size_t{0}}) find(at);
+  while (!anchors.empty()) {
+    std::vector<Eigen::VectorXcd> vectors;
+    for (Anchor& anchor : anchors) {
+      anchor.mode.vector.conservativeResizeLike(Eigen::VectorXcd::Zero(basis.size()));
+      vectors.push_back(anchor.mode.vector);
+    }
+    const SweepProblem part(basis, vectors);
+    sweep.basis = static_cast<PetscInt>(part.problem().size());
+    sweep.paths = follow_all(basis.body().comm(), part, laws, anchors);
+    const std::size_t next = worst_place(sweep.paths, sweep.worst);
+    if (sweep.worst <= tolerable || places.contains(next) || places.size() >= most_places) break;
+    find(next);
+  }
+  find_events(sweep);
+  return sweep;
+}
+
+std::string describe(const ModesSweep& sweep) {
+  const SweepChoice& choice = sweep.choice;
+  std::string text = format(
+      "sweep of {} from {:g} to {:g}, {} values: {} modes followed, in {} vectors of {} places; largest "
+      "residual {:.1e}\n",
+      choice.name, choice.values.front(), choice.values.back(), choice.values.size(), sweep.paths.size(),
+      sweep.basis, sweep.places.size(), sweep.worst);
+  std::vector<std::vector<std::string>> rows{{"at " + choice.name, "frequency [Hz]", "mode", "what"}};
+  for (const StabilityLimit& limit : sweep.limits)
+    rows.push_back({format("{:.6g}", limit.value), format("{:.6g}", limit.frequency),
+                    std::to_string(limit.path + 1), limit.grows ? "begins to grow" : "ceases to grow"});
+  for (const Coupling& coupling : sweep.couplings)
+    rows.push_back({format("{:.6g}", coupling.value), format("{:.6g}", coupling.frequency),
+                    format("{} and {}", coupling.paths[0] + 1, coupling.paths[1] + 1),
+                    format("couple, apart by {:.2g}", coupling.distance)});
+  if (rows.size() > 1) text += table(rows);
+  rows = {{choice.name, "growing", "fastest [1/s]", "at [Hz]"}};
+  constexpr std::size_t most_rows = 11;
+  const std::size_t last = choice.values.size() - 1, shown = std::min(last, most_rows - 1);
+  for (std::size_t row = 0; row <= shown; ++row) {
+    const std::size_t k = shown == 0 ? 0 : row * last / shown;
+    Complex fastest = lost;
+    int growing = 0;
+    for (const ModePath& path : sweep.paths) {
+      const Complex p = path.exponent[k];
+      if (!is_there(p)) continue;
+      growing += p.real() > 0;
+      if (!is_there(fastest) || p.real() > fastest.real()) fastest = p;
+    }
+    rows.push_back({format("{:.6g}", choice.values[k]), std::to_string(growing),
+                    format("{:.6g}", fastest.real()), format("{:.6g}", frequency_of(fastest))});
+  }
+  return text + table(rows);
+}
+
+}  // namespace slipscale
