@@ -10,6 +10,9 @@ exit code 2. It fails when it crashes, takes longer than `--hang` seconds or mor
 something else, takes what cannot be true, or writes what is not finite. Failing files are kept. The same seed makes the same
 damage.
 
+`--seed 12 --seconds 1000`, on two cores with thirty other processes: 289 files, 197 refused, 2 failed and since mended
+(names that are no text, a zero with the other sign).
+
 The environment says where the programs are, as for tests/programs: SLIPSCALE_SLIDE and so on.
 """
 
