@@ -33,4 +33,9 @@ FreeMotion::Move FreeMotion::moving(const BulkPhysics& physics, Instructions ins
   return table[row][static_cast<std::size_t>(instructions)];
 }
 
+void see(const SeenNodes& nodes, int count, double back, double weight, Instructions instructions) {
+  static constexpr std::array see_with{base::see_nodes, avx2::see_nodes, avx512::see_nodes};
+  see_with[static_cast<std::size_t>(instructions)](nodes, count, back, weight);
+}
+
 }  // namespace slipscale

@@ -288,21 +288,16 @@ void SlidingBody::advance(Observed observed) {
 /// The velocity at t_n of owned nodes, and the terms of the energies, J/m: ½vᵀMv, the scheme's correction of
 /// it (Δt²β2/4) aᵀMa, ½uᵀKu, the work of gravity.
 void SlidingBody::observe_nodes(const StepCoefficients& step, int begin, int end) {
-  const double back = step.predictor - step.velocity;  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
-  const double correction = 0.25 * time_step_ * time_step_ * scene_.beta2;
-  const Vector2 *const w = w_.data(), *const a = a_.data();
   const std::size_t moving = moving_things();
-  double *const velocity = terms_.data(), *const acceleration = velocity + moving,
-                *const strain = acceleration + moving, *const gravity = strain + model_.mass.size();
-  for (int i = begin; i < end; ++i) {
-    const Vector2 v{w[i][0] - back * a[i][0], w[i][1] - back * a[i][1]};
-    v_.data()[i] = v;
-    // In this order: a square alone may be beyond all numbers where the energy is not.
-    const double half = 0.5 * model_.mass[i], part = correction * model_.mass[i];
-    velocity[i] = half * v[0] * v[0] + half * v[1] * v[1];
-    acceleration[i] = part * a[i][0] * a[i][0] + part * a[i][1] * a[i][1];
-    strain[i] = 0.5 * (kept_[i][0] * force_[i][0] + kept_[i][1] * force_[i][1]);
-  }
+  double *const kinetic = terms_.data(), *const correction = kinetic + moving,
+                *const strain = correction + moving, *const gravity = strain + model_.mass.size();
+  const auto from = [begin](const Vector2* rows) { return rows[begin].data(); };
+  const SeenNodes seen{from(w_.data()),     from(a_.data()),     from(kept_.data()),
+                       from(force_.data()), &model_.mass[begin], v_.data()[begin].data(),
+                       kinetic + begin,     correction + begin,  strain + begin};
+  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
+  see(seen, end - begin, step.predictor - step.velocity, 0.25 * time_step_ * time_step_ * scene_.beta2,
+      model_.kernel.instructions);
   if (scene_.body_acceleration != Vector2{})
     for (int i = begin; i < end; ++i) gravity[i] = gravity_work(i, kept_[i]);
 }

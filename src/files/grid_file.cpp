@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <span>
 
 #include "object_header.hpp"
@@ -66,6 +67,18 @@ void unpack_stream(const std::vector<int>& stream, PlaneGrid& grid) {
   }
 }
 
+/// In UTF-8, without control characters.
+bool is_text(const std::string& word) {
+  int expected = 0;  // continuation bytes
+  for (const char letter : word) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool continues = (byte & 0xc0) == 0x80;
+    if (continues != (expected > 0) || byte < 0x20 || byte == 0x7f || byte >= 0xf8) return false;
+    expected = continues ? expected - 1 : byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : byte >= 0xc0 ? 1 : 0;
+  }
+  return expected == 0;
+}
+
 bool all_within(const std::vector<int>& numbers, std::size_t count) {
   return std::all_of(numbers.begin(), numbers.end(),
                      [&](int n) { return n >= 0 && static_cast<std::size_t>(n) < count; });
@@ -125,6 +138,10 @@ void GridFile::read_mesh(PlaneGrid& grid) const {
   for (std::size_t k = 0; k < x.size(); k += 2) grid.points.push_back({x[k], x[k + 1]});
   grid.region = integers("/mesh/region");
   grid.regions = texts("/mesh/region", "names");
+  require(std::ranges::all_of(grid.regions, is_text), "/mesh/region's attribute names",
+          "is no list of texts");
+  require(std::set<std::string>(grid.regions.begin(), grid.regions.end()).size() == grid.regions.size(),
+          "/mesh/region's attribute names", "has a name twice");
   if (cells.size() == 1) {
     unpack_stream(integers("/mesh/cells"), grid);
   } else {

@@ -2,12 +2,16 @@
 
     fuzz_hdf5.py [--seconds 60] [--seed 1] [--keep FOLDER] [--only NAME]
 
-localization.h5, fields.h5 and statistics.h5 go to `relocalize`, effective.yaml goes to `slide`. Damage is done where
+localization.h5, fields.h5 and statistics.h5 go to `relocalize`, effective.yaml goes to `slide`; so do history.h5, contact.h5,
+fields.h5 and the checkpoint of a run that goes on, which must end with the same bits or be refused. Damage is done where
 the format has a place for it (a dataset of another size or kind, numbers that are none, an attribute that is a list)
 and anywhere else (bytes turned over, files cut): damage_hdf5.py. A reader may take it or refuse it with one sentence and
 exit code 2. It fails when it crashes, takes longer than `--hang` seconds or more memory than `--memory` MB, says
 something else, takes what cannot be true, or writes what is not finite. Failing files are kept. The same seed makes the same
 damage.
+
+`--seed 12 --seconds 1000`, on two cores with thirty other processes: 289 files, 197 refused, 2 failed and since mended
+(names that are no text, a zero with the other sign).
 
 The environment says where the programs are, as for tests/programs: SLIPSCALE_SLIDE and so on.
 """
@@ -113,8 +117,12 @@ def fault(reader, damage, outcome, folder, limits, whole):
     # What a reference must have is its stress; its strain may be anything.
     if damage.fatal and not (reader.source.startswith("heterogeneous") and "strain" in damage.text):
         return "taken without a word"
-    if reader.goes_on and records(folder / "stopped") != whole:
-        return "goes on with damaged data"
+    if reader.goes_on:
+        try:
+            if records(folder / "stopped") != whole:
+                return "goes on with damaged data"
+        except (OSError, RuntimeError, KeyError, ValueError) as error:
+            return f"goes on with what cannot be read: {error}"
     for name in reader.outputs:
         path = folder / "out" / name
         if path.exists() and not_finite(path):
