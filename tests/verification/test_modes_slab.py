@@ -85,23 +85,16 @@ class Determinant(SlabCase):
 
 class GridScale(SlabCase):
     def test_coulomb_has_a_mode_at_grid_scale(self):
-        """The fastest of all modes with Coulomb's law grows twice as fast on a mesh of half the size; with a memory of
-        friction of two cells' passage no such mode is left."""
-        growth = []
-        for elements in (32, 64):
-            options = self.scene(Slab(isotropic(0.3), time=0), elements)
-            found = self.modes(options, modes_to=2.7 * elements / 32, modes_count=4,
-                               modes_tolerance=1e-8, modes_shapes=0, modes_basis=300)
-            growth.append(found.p[0].real)
-            if elements == 32:
-                self.assert_close(found.p[0], Sliding(options).modes()[0][0], 1e-8)
-        self.assertAlmostEqual(growth[1] / growth[0], 2, delta=0.02)
-        h = LENGTH / 32
-        calm = self.modes(self.scene(Slab(isotropic(0.3), time=2 * h), 32), modes_to=2.7, modes_count=4, modes_basis=300)
-        self.assertLess(calm.p[0].real, 0.25 * growth[1])
-        sliding_scenes.row(TOPIC, "Coulomb, the fastest of all modes, 32 and 64 elements: growth over c_s/m",
-                           f"0.666454, {2 * growth[0]:.2f}: doubles", ", ".join(f"{each:.6f}" for each in growth),
-                           "dense eigenvalues, dense_modes.py")
+        """The fastest of all modes with Coulomb's law, as the dense reference has it (that it doubles with refinement is
+        shown by slab_growth.cpp); with a memory of friction of two cells' passage no such mode is left."""
+        options = self.scene(Slab(isotropic(0.3), time=0), 32)
+        found = self.modes(options, modes_to=2.7, modes_count=4, modes_shapes=0)
+        self.assert_close(found.p[0], Sliding(options).modes()[0][0], 1e-8)
+        calm = self.modes(self.scene(Slab(isotropic(0.3), time=2 * LENGTH / 32), 32), modes_to=2.7, modes_count=4,
+                          modes_shapes=0)
+        self.assertLess(calm.p[0].real, 0.25 * found.p[0].real)
+        sliding_scenes.row(TOPIC, "Coulomb, the fastest of all modes, at grid scale, 32 elements: growth over c_s/m",
+                           "0.666454", f"{found.p[0].real:.6f}", "dense eigenvalues, dense_modes.py")
 
 
 if __name__ == "__main__":
