@@ -56,10 +56,12 @@ void tell_of_idle(const Options& options, const Mesh& mesh, bool scheme) {
 std::optional<TimeChoice> read_scheme_time(const Options& options, bool scheme) {
   if (!scheme) return std::nullopt;
   TimeChoice time;
-  if (const std::string step = options.text("time_step"); step != "auto")
+  if (const std::string step = options.text("time_step"); step != "auto") {
     time.step = std::strtod(step.c_str(), nullptr);
-  else
+    options.refuse_idle({"time_safety"}, {"with -time_step " + step, "give -time_step auto", {"time_step"}});
+  } else {
     time.safety = options.real("time_safety");
+  }
   if (options.given("time_end")) time.end = options.real("time_end");
   return time;
 }

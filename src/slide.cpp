@@ -61,6 +61,16 @@ void print_scene(const Scene& scene) {
           describe(scene.friction) + "\n");
 }
 
+/// A signal that came during set-up ends the run while the folder is still as it was. Collective.
+void stop_if_asked(MPI_Comm comm, const StopRequest& request) {
+  int signal = request.signal();
+  MPI_Allreduce(MPI_IN_PLACE, &signal, 1, MPI_INT, MPI_MAX, comm);
+  if (signal != 0)
+    throw Interruption(
+        format("interrupted by {} before the first step; no file was touched, so give the same command again",
+               signal_name(signal)));
+}
+
 std::unique_ptr<Restart> find_restart(MPI_Comm comm, const std::optional<std::string>& folder) {
   if (!folder) return nullptr;
   auto restart = std::make_unique<Restart>(comm, *folder);
@@ -80,7 +90,7 @@ bool is_finished(const Restart& restart, const TimeStep& step) {
 
 void slide(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
-  const StopRequest request;  // what comes during set-up ends the run after its first step
+  const StopRequest request;
   auto set_up = std::make_unique<LogStage>("Set-up");
 
   const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
@@ -111,6 +121,7 @@ void slide(Options& options) {
     body.resume();
   }
   print_notes(remarks_at_start(body));
+  stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
   Checkpoints checkpoints(body, recorder, request, scene_marks(options, mesh, materials, recorder.run()),
@@ -120,7 +131,7 @@ void slide(Options& options) {
 
   const LogStage steps("Steps");
   for (long n = body.steps_done(); n <= step.count; ++n) {
-    body.advance(recorder.due(n));
+    body.advance(recorder.observes(n));
     recorder.after_step(n);
     checkpoints.after_step(n);
   }

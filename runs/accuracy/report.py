@@ -1,6 +1,6 @@
 """Says in Markdown what the table of the study holds, for the README; run by the Snakefile."""
 
-from accuracy.work_precision import MEGA, OPTIONS, Study, change, column, power_of
+from accuracy.work_precision import MEGA, OPTIONS, Study, change, column, meshes_of, power_of
 from slipscale.measuring.convergence import observed_order, orders_from_errors, richardson
 from slipscale.reports.publish import bullets, failures, folded, publish
 from slipscale.running.studies import started_by_snakemake
@@ -23,7 +23,7 @@ def order_lines(study, reference):
         orders = [f"{name} {numbers(orders_from_errors(h, column(rows, f'error_{name}')), '.2f')}" for name in MODULI]
         blind = observed_order(h[-3:], column(rows, "C11")[-3:])
         limit = richardson(h, column(rows, "C11"), order=2)
-        yield (f"{element}s: order between successive sizes {'; '.join(orders)}. From the three finest C11 alone, "
+        yield (f"{meshes_of(element)}: order between successive sizes {'; '.join(orders)}. From the three finest C11 alone, "
                f"without the reference, {blind:.2f}; their Richardson limit for order 2 is "
                f"{GIGA * limit.limit:.6f} GPa, {limit.limit / float(reference['C11']) - 1:.1e} from the reference, "
                f"and its error bar {abs(limit.error) / limit.limit:.1e} where the error is "
@@ -36,14 +36,14 @@ def cost_lines(study):
         if time := power_of(rows, "seconds"):
             solver = [row["set_up_seconds"] + row["solve_seconds"] for row in rows]
             memory = power_of(rows, "memory", study.least_memory())
-            yield (f"{element}s, multigrid, {rows[0]['unknowns']} to {rows[-1]['unknowns']} unknowns: time grows like "
+            yield (f"{meshes_of(element)}, multigrid, {rows[0]['unknowns']} to {rows[-1]['unknowns']} unknowns: time grows like "
                    f"the size to the power {time.exponent:.2f}, memory above the program's own "
                    f"{MEGA * study.least_memory():.0f} MB to the power {memory.exponent:.2f}. Iterations "
                    f"{numbers(column(rows, 'iterations'), 'd')}. At the finest, set-up and three solves take "
                    f"{solver[-1]:.2f} s of {rows[-1]['seconds']:.2f} s; the rest reads the mesh and writes the files.")
         direct = study.over_size(element, "direct")
         if rows and direct and direct[-1]["size"] == rows[-1]["size"]:
-            yield (f"{element}s, factorisation at {direct[-1]['unknowns']} unknowns: {direct[-1]['seconds']:.2f} s and "
+            yield (f"{meshes_of(element)}, factorisation at {direct[-1]['unknowns']} unknowns: {direct[-1]['seconds']:.2f} s and "
                    f"{MEGA * direct[-1]['memory']:.0f} MB, multigrid {rows[-1]['seconds']:.2f} s and "
                    f"{MEGA * rows[-1]['memory']:.0f} MB.")
 
@@ -64,7 +64,7 @@ def orientation_lines(study, orientation):
         if good:
             row = min(good, key=lambda row: row["seconds"])
             yield (f"{known['name']}: {known['seconds'][-1]:g} s for an error of {known['error'][-1]:g}. Here "
-                   f"{row['seconds']:.2g} s for {abs(row['error_C11']):.1e} ({row['element']}s, {row['size']} across, "
+                   f"{row['seconds']:.2g} s for {abs(row['error_C11']):.1e} ({meshes_of(row['element'])}, {row['size']} across, "
                    f"{row['method']}).")
 
 

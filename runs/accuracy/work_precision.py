@@ -19,8 +19,10 @@ from slipscale.reading.yaml_file import load
 from slipscale.running.table import quickest, read_csv
 
 OPTIONS = ("element", "size", "solver", "rtol")
-COLOURS = {"triangle": BLUE, "quadrilateral": ORANGE}  # black for others
-MARKERS = {"triangle": "^", "quadrilateral": "s"}  # a disc for others
+COLOURS = {"triangle": BLUE, "quadrilateral": ORANGE, "grid": GREEN}  # black for others
+MARKERS = {"triangle": "^", "quadrilateral": "s", "grid": "o"}  # a filled cross for others
+STYLES = {"triangle": "-", "quadrilateral": "--", "grid": "-."}  # dotted for others
+LABELS_AT = {"triangle": (4, 4), "quadrilateral": (-18, -10), "grid": (-16, 4)}  # of the sizes, in points
 ITERATIVE = "cg + gamg"
 MEGA = 1e-6
 
@@ -63,7 +65,12 @@ def colour_of(element):
 
 
 def marker_of(element):
-    return MARKERS.get(element, "o")
+    return MARKERS.get(element, "X")
+
+
+def meshes_of(element):
+    """What meshes of this element are called."""
+    return "fitted grid" if element == "grid" else f"{element}s"
 
 
 def column(rows, name):
@@ -86,10 +93,10 @@ def work_precision_panel(axes, study, orientation):
         rows = study.over_size(element)
         seconds, errors = column(rows, "seconds"), [abs(row["error_C11"]) for row in rows]
         axes.loglog(seconds, errors, marker_of(element) + "-", color=colour_of(element),
-                    label=f"{element}s, element size")
+                    label=f"{meshes_of(element)}, element size")
         for row, x, y in zip(rows, seconds, errors):
-            axes.annotate(str(row["size"]), (x, y), (4, 4) if element == study.elements[0] else (-18, -10),
-                          textcoords="offset points", fontsize="small", color=colour_of(element))
+            axes.annotate(str(row["size"]), (x, y), LABELS_AT.get(element, (4, 4)), textcoords="offset points",
+                          fontsize="small", color=colour_of(element))
     tolerances = study.over_tolerance()
     if len(tolerances) > 1:
         axes.loglog(column(tolerances, "seconds"), [abs(row["error_C11"]) for row in tolerances], "x:", color=PURPLE,
@@ -99,7 +106,7 @@ def work_precision_panel(axes, study, orientation):
         rows = study.over_size(element, "direct")
         if rows:
             axes.loglog(column(rows, "seconds"), [abs(row["error_C11"]) for row in rows], "D--", markersize=5,
-                        color=VERMILION, label=f"{element}s, factorisation")
+                        color=VERMILION, label=f"{meshes_of(element)}, factorisation")
     for known, marker in zip(orientation, "*PX"):
         axes.loglog(known["seconds"], known["error"], marker + "-", color=BLACK, linewidth=0.8, markersize=9,
                     label=known["name"])
@@ -112,9 +119,9 @@ def work_precision_panel(axes, study, orientation):
 
 def over_size_panel(axes, study, quantity, known_as, orientation, scale=1.0, base=0.0):
     """A quantity against the unknowns with the fitted power; it is drawn whole, the power is of what exceeds base."""
-    curves = [(study.iterative(element), colour_of(element), f"{element}s, multigrid", marker_of(element))
+    curves = [(study.iterative(element), colour_of(element), f"{meshes_of(element)}, multigrid", marker_of(element))
               for element in study.elements]
-    curves += [(study.over_size(element, "direct"), VERMILION, f"{element}s, factorisation", "D")
+    curves += [(study.over_size(element, "direct"), VERMILION, f"{meshes_of(element)}, factorisation", "D")
                for element in study.elements]
     for rows, colour, name, marker in curves:
         if rows:
@@ -131,15 +138,15 @@ def over_size_panel(axes, study, quantity, known_as, orientation, scale=1.0, bas
 
 def share_panel(axes, study):
     """Where the seconds go, at the tightest tolerance."""
-    for element, style in zip(study.elements, ("-", "--")):
-        rows = study.iterative(element)
+    for element in study.elements:
+        rows, style = study.iterative(element), STYLES.get(element, ":")
         rest = [row["seconds"] - row["set_up_seconds"] - row["solve_seconds"] for row in rows]
         for values, colour, name in ((column(rows, "set_up_seconds"), GREEN, "set-up"),
                                      (column(rows, "solve_seconds"), SKY, "three solves"),
                                      (rest, "0.5", "mesh reading and files")):
             if rows:
                 axes.loglog(column(rows, "unknowns"), values, marker_of(element) + style, color=colour,
-                            label=f"{element}s, {name}")
+                            label=f"{meshes_of(element)}, {name}")
     axes.set(title="(d) Where multigrid's seconds go", xlabel="unknowns", ylabel="seconds")
 
 

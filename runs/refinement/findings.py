@@ -142,7 +142,8 @@ def sequence_text(rows):
 
 def title_of(rows):
     first = rows[0]
-    return f"{first['sequence']}: scene {first['scene']}, meshes {first['family']}, {varied(rows)}"
+    families = " and ".join(dict.fromkeys(row["family"] for row in rows))
+    return f"{first['sequence']}: scene {first['scene']}, meshes {families}, {varied(rows)}"
 
 
 def varied(rows):

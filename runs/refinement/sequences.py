@@ -4,7 +4,7 @@ of.
 A sequence is a dict of these entries (runs/refinement/study.yaml spells several out):
 
     name                       of the sequence
-    scene, family, variants    names; variants may be several, each is refined by itself
+    scene, family, variants    names; families and variants may be several, each is refined by itself
     size                       of the elements in m, one or several
     step                       time step in s, one or several, or auto; or step_per_size in s/m, in place of it
     reference                  dict of what the reference run has instead of the finest run's (family, size, …); without
@@ -20,19 +20,21 @@ A sequence is a dict of these entries (runs/refinement/study.yaml spells several
 
 import re
 from dataclasses import dataclass, field
+from itertools import product
 
 OPTIONS = ("scene", "family", "variant", "size", "step")  # of a run
 ENTRIES = ("name", "scene", "family", "variants", "size", "step", "step_per_size", "reference", "window",
            "trajectories", "distances", "averages", "known", "point", "parts", "portraits")
-SEVERAL = ("variants", "trajectories", "distances", "averages")
+SEVERAL = ("family", "variants", "trajectories", "distances", "averages")
 NAME = re.compile(r"[\w.+-]+")  # of a file
 SAME = 1e-6  # relative: sizes and steps that are closer are equal
 
 
 @dataclass
 class Chain:
-    """One variant of a sequence: its runs (dicts of OPTIONS) from coarse to fine, `along` size or step; and the run
-    that is the reference, one of them or another."""
+    """One variant of a sequence on one family of meshes: its runs (dicts of OPTIONS) from coarse to fine, `along` size
+    or step; and the run that is the reference, one of them or another. `variant` is what it is called: by its family
+    where the sequence has several, by both where it has several of both."""
 
     name: str
     variant: str
@@ -65,7 +67,7 @@ def checked(sequence):
     if ("step" in sequence) == ("step_per_size" in sequence):
         raise ValueError(f"sequence {name}: give step or step_per_size")
     lists = {each: several(sequence.get(each, [])) for each in SEVERAL}
-    for word in (name, sequence["scene"], sequence["family"], *lists["variants"]):
+    for word in (name, sequence["scene"], *lists["family"], *lists["variants"]):
         if not NAME.fullmatch(str(word)):
             raise ValueError(f"sequence {name}: {word!r} names files: use letters, digits, and . + - _")
     return {**sequence, **lists, "window": [float(time) for time in sequence["window"]]}
@@ -99,11 +101,19 @@ def chains(sequences):
     found = []
     for sequence in map(checked, sequences):
         along, pairs = pairs_of(sequence)
-        for variant in sequence["variants"]:
-            runs = [{"scene": sequence["scene"], "family": sequence["family"], "variant": variant, "size": size,
-                     "step": step} for size, step in pairs]
-            found.append(Chain(sequence["name"], variant, along, runs, reference_of(sequence, runs[-1]), sequence))
+        for family, variant in product(sequence["family"], sequence["variants"]):
+            runs = [{"scene": sequence["scene"], "family": family, "variant": variant, "size": size, "step": step}
+                    for size, step in pairs]
+            found.append(Chain(sequence["name"], called(sequence, family, variant), along, runs,
+                               reference_of(sequence, runs[-1]), sequence))
     return found
+
+
+def called(sequence, family, variant):
+    """What tells a chain from the others of its sequence."""
+    if len(sequence["family"]) == 1:
+        return variant
+    return family if len(sequence["variants"]) == 1 else f"{family}-{variant}"
 
 
 def reference_of(sequence, finest):

@@ -19,6 +19,7 @@ COMMANDS = {  # name: (module, what it does in one line)
     "cell-picture": ("slipscale.pictures.cell_picture", "a cell of homogenize: stress under unit strains, stiffness"),
     "relocalized-picture": ("slipscale.pictures.relocalized_picture",
                             "local stress of relocalize beside the heterogeneous and the homogeneous run's"),
+    "modes-picture": ("slipscale.pictures.modes_picture", "the modes of steady sliding: spectrum, shapes, tractions, map"),
     "compare": ("slipscale.reports.compare",
                 "two or more runs side by side: means, spectra, portraits, settled or not"),
     "report": ("slipscale.reports.page", "a run, or a study, on one page that opens anywhere"),

@@ -173,6 +173,7 @@ int run_in_petsc(const Program& program, const CommandLine& line, const std::vec
     written.insert(written.end(), own.begin(), own.end());
     std::vector<Written> found = PlacesOfPetsc().all();
     found.insert(found.end(), written.begin(), written.end());
+    if (program.restart) refuse_restart_elsewhere(found);
     refuse_petsc_values(found);
     fill_database(program, written, arguments);
     Options options(program.name, program.schema, written, program.solvers);

@@ -93,6 +93,14 @@ std::vector<Written> options_of_run(const RestartRule& rule, const Written& rest
   return options;
 }
 
+void refuse_restart_elsewhere(const std::vector<Written>& options) {
+  for (const Written& option : options)
+    if (option.origin.order == 0 && spelling::fold(option.name) == "restart")
+      throw UserError(
+          "-restart stands in " + option.origin.place +
+          ", but what is to be gone on with is said for one command; give it on the command line");
+}
+
 void refuse_changes(const std::vector<Written>& before, const std::vector<Written>& now,
                     const RestartRule& rule, const Schema& schema, const std::string& folder) {
   std::map<std::string, const Written*> last;  // the last word of each name counts

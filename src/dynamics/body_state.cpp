@@ -11,7 +11,10 @@ StateGroup at_nodes(const std::string& name, const Nodes& nodes, const std::vect
   return group;
 }
 
-double* numbers(std::vector<Vector2>& rows) { return rows.empty() ? nullptr : rows[0].data(); }
+template <class Rows>
+double* numbers(Rows& rows) {
+  return rows.empty() ? nullptr : rows[0].data();
+}
 
 }  // namespace
 
@@ -19,13 +22,17 @@ std::vector<StateGroup> SlidingBody::state() {
   const Nodes& mesh = model_.mesh.nodes;
   StateGroup nodes{"nodes", {mesh.number.begin(), mesh.number.begin() + mesh.owned}, mesh.total, true, {}};
   nodes.arrays = {{"displacement", "m", "u at the end of the step", 2, u_.data()->data()},
-                  {"predictor", "m/s", "w at the end of the step", 2, w_.data()->data()},
-                  {"internal_force", "N/m", "K u at the beginning of the step", 2, numbers(force_)}};
+                  {"predictor", "m/s", "w at the end of the step", 2, w_.data()->data()}};
   if (physics_.keeps_acceleration)
     nodes.arrays.push_back({"acceleration", "m/s^2", "at the beginning of the step", 2, a_.data()->data()});
   StateGroup boundary = at_nodes("boundary_nodes", mesh, boundary_.node);
   boundary.arrays = {
       {"displacement", "m", "u at the beginning of the step", 2, numbers(boundary_.displacement)}};
+  carried_force_.clear();
+  for (const int node : boundary_.node) carried_force_.push_back(force_[node]);
+  StateGroup& of_force = physics_.keeps_force() ? nodes : boundary;
+  of_force.arrays.push_back({"internal_force", "N/m", "K u at the beginning of the step", 2,
+                             physics_.keeps_force() ? numbers(force_) : numbers(carried_force_)});
   StateGroup contact = at_nodes("contact_nodes", mesh, contact_.node);
   static_assert(sizeof(FrictionMemory) == 2 * sizeof(double));
   if (contact_.size() > 0)
@@ -57,6 +64,8 @@ void SlidingBody::resume() {
   start_gravity_ = carried_.start_gravity;
   start_energy_ = carried_.start_energy;
   contact_.touched = carried_.touched != 0;
+  if (!physics_.keeps_force())
+    for (int k = 0; k < boundary_.size(); ++k) force_[boundary_.node[k]] = carried_force_[k];
   ledger_.resume(surface_travel_);
   u_.begin_update();
 }

@@ -41,8 +41,7 @@ std::array<bool, 2> facing(const Mesh& mesh, const Boundary& boundary) {
   for (const BoundaryEdge& edge : boundary.edges)
     for (int axis = 0; axis < 2; ++axis)
       found[axis] |= std::abs(edge.outward[axis]) > aslant * std::hypot(edge.outward[0], edge.outward[1]);
-  MPI_Allreduce(MPI_IN_PLACE, found, 2, MPI_INT, MPI_MAX,
-                PetscObjectComm(reinterpret_cast<PetscObject>(mesh.dm.get())));
+  MPI_Allreduce(MPI_IN_PLACE, found, 2, MPI_INT, MPI_MAX, mesh.comm);
   return {found[0] != 0, found[1] != 0};
 }
 

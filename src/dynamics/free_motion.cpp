@@ -13,7 +13,7 @@ namespace {
 #define SLIPSCALE_BODY "slipscale/dynamics/free_motion.inc"
 #include "slipscale/solid/for_all_instructions.inc"
 
-using Move = void (*)(const FreeMotionState&, int begin, int end);
+using Move = void (*)(const FreeMotionState&, int begin, int end, const Vector2* force);
 
 /// In the order of `Instructions`.
 template <BulkPhysics physics>
@@ -31,6 +31,11 @@ FreeMotion::Move FreeMotion::moving(const BulkPhysics& physics, Instructions ins
   const unsigned row = (physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
                        (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u);
   return table[row][static_cast<std::size_t>(instructions)];
+}
+
+void see(const SeenNodes& nodes, int count, double back, double weight, Instructions instructions) {
+  static constexpr std::array see_with{base::see_nodes, avx2::see_nodes, avx512::see_nodes};
+  see_with[static_cast<std::size_t>(instructions)](nodes, count, back, weight);
 }
 
 }  // namespace slipscale

@@ -53,13 +53,52 @@ struct Ritz {
   double value, residual;
 };
 
-/// The largest eigenvalue of the Lanczos tridiagonal matrix and the residual of its Ritz vector.
-Ritz largest_ritz(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-  const auto n = static_cast<Eigen::Index>(diagonal.size());
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), n),
-                                Eigen::Map<const Eigen::VectorXd>(beside.data(), n - 1));
-  return {solver.eigenvalues()[n - 1], beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1))};
+/// The largest eigenvalue of the Lanczos tridiagonal matrix and the residual of its Ritz vector, for which
+/// the last components of the eigenvectors are enough: the implicit QL method (EISPACK's IMTQL2) with one row
+/// of the vectors.
+Ritz largest_ritz(std::vector<double> d, std::vector<double> e) {
+  const auto n = static_cast<int>(d.size());
+  const double last = e.back();
+  std::vector<double> row(d.size(), 0);
+  row.back() = 1;
+  const auto split = [&](int k) {  // whether the matrix falls apart behind k
+    const double size = std::abs(d[k]) + std::abs(d[k + 1]);
+    return std::abs(e[k]) <= std::numeric_limits<double>::epsilon() * size;
+  };
+  for (int l = 0; l < n; ++l)
+    for (int sweep = 0; sweep < 60; ++sweep) {
+      int m = l;
+      while (m < n - 1 && !split(m)) ++m;
+      if (m == l) break;
+      double g = (d[l + 1] - d[l]) / (2 * e[l]), r = std::hypot(g, 1);
+      g = d[m] - d[l] + e[l] / (g + std::copysign(r, g));
+      double sine = 1, cosine = 1, p = 0;
+      int i = m - 1;
+      for (; i >= l; --i) {
+        const double f = sine * e[i], b = cosine * e[i];
+        r = std::hypot(f, g);
+        e[i + 1] = r;
+        if (r == 0) break;
+        sine = f / r, cosine = g / r;
+        g = d[i + 1] - p;
+        r = (d[i] - g) * sine + 2 * cosine * b;
+        p = sine * r;
+        d[i + 1] = g + p;
+        g = cosine * r - b;
+        const double above = row[i + 1];
+        row[i + 1] = sine * row[i] + cosine * above;
+        row[i] = cosine * row[i] - sine * above;
+      }
+      if (i >= l) {
+        d[i + 1] -= p;
+      } else {
+        d[l] -= p;
+        e[l] = g;
+      }
+      e[m] = 0;
+    }
+  const auto largest = std::max_element(d.begin(), d.end());
+  return {*largest, last * std::abs(row[largest - d.begin()])};
 }
 
 Ritz lanczos(MPI_Comm comm, const Model& model, int most, double tolerance) {

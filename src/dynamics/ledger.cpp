@@ -7,7 +7,7 @@ namespace {
 
 double dot(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
 
-double* numbers(std::vector<Vector2>& rows) { return rows.empty() ? nullptr : rows[0].data(); }
+double* numbers(LargeArray<Vector2>& rows) { return rows.empty() ? nullptr : rows[0].data(); }
 
 void add_work(StateGroup& group, const std::string& name, const std::string& text, NodalWork& work) {
   group.arrays.push_back({name, "J/m", text + " since t = 0", 1, work.done.data()});

@@ -20,7 +20,9 @@ Model::Model(const Mesh& body, std::vector<Material> regions, Storage storage, c
       kernel(how),
       materials(std::move(regions)),
       mass(lumped_mass(body, materials)),
-      stiffness(assemble(body, materials, storage, how)) {}
+      stiffness(assemble(body, materials, storage, how)) {
+  give_back_freed();
+}
 
 double Model::repeating(MPI_Comm comm) const {
   auto nodes = static_cast<double>(std::visit([](const auto& each) { return each.repeating(); }, stiffness));
@@ -28,25 +30,17 @@ double Model::repeating(MPI_Comm comm) const {
   return nodes / static_cast<double>(mesh.nodes.total);
 }
 
-NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts) {
+NodalVector::NodalVector(MPI_Comm comm, const Nodes& nodes, bool with_ghosts)
+    : array_(static_cast<std::size_t>(with_ghosts ? nodes.size() : nodes.owned), Vector2{0, 0}) {
   const auto ghosts = static_cast<PetscInt>(with_ghosts ? nodes.ghosts.size() : 0);
-  petsc(VecCreateGhostBlock(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(),
-                            vec_.put()));
-  petsc(VecSet(vec_, 0));
+  petsc(VecCreateGhostBlockWithArray(comm, 2, 2 * nodes.owned, PETSC_DETERMINE, ghosts, nodes.ghosts.data(),
+                                     reinterpret_cast<PetscScalar*>(array_.data()), vec_.put()));
   petsc(VecGhostGetLocalForm(vec_, &local_));
-  petsc(VecSet(local_, 0));
-  // Held for the vector's life: host memory does not move, and the step loop should not ask for it every
-  // time.
-  PetscScalar* values = nullptr;
-  petsc(VecGetArray(local_, &values));
-  array_ = reinterpret_cast<Vector2*>(values);
 }
 
 NodalVector::~NodalVector() {
   if (updating_)
     (void)VecGhostUpdateEnd(vec_, INSERT_VALUES, SCATTER_FORWARD);  // PETSc refuses to free it before
-  auto* values = reinterpret_cast<PetscScalar*>(array_);
-  (void)VecRestoreArray(local_, &values);
   (void)VecGhostRestoreLocalForm(vec_, &local_);
 }
 

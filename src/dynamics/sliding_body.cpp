@@ -39,6 +39,36 @@ std::vector<double> tributary_lengths(const Mesh& mesh, const Boundary& boundary
   return length;
 }
 
+/// Moves nodes whose forces are all there, and does something before and after while they are in the cache.
+template <class Before, class After>
+struct MoveFrom {
+  const FreeMotion& move;
+  const Vector2* force;
+  Before before;
+  After after;
+
+  void prepare(int begin, int end) const { move.prepare(begin, end); }
+  void operator()(int begin, int end) const {
+    before(begin, end);
+    move(begin, end, force);
+    after(begin, end);
+  }
+};
+
+/// Moves nodes by forces in passing, and keeps those of some nodes.
+struct MovePassing {
+  const FreeMotion& move;
+  const std::vector<int>& keeps;  ///< ascending
+  Vector2* kept;                  ///< by local node
+  std::size_t next = 0;
+
+  void prepare(int begin, int end) const { move.prepare(begin, end); }
+  void operator()(int begin, int end, const Vector2* force) {
+    for (; next < keeps.size() && keeps[next] < end; ++next) kept[keeps[next]] = force[keeps[next]];
+    move(begin, end, force);
+  }
+};
+
 }  // namespace
 
 SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step)
@@ -63,15 +93,21 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
   straight_ = std::make_unique<StraightSides>(comm, model.mesh, scene.conditions, boundary_, *supports_,
                                               u_.data(), w_.data());
+  inverse_mass_.reserve(model.mass.size());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
-  if (physics_.keeps_force()) previous_force_.assign(force_.size(), {0, 0});
+  if (physics_.keeps_force())
+    previous_force_.assign(force_.size(), {0, 0});
+  else
+    passing_.resize(std::visit([](const auto& each) { return each.passing_size(); }, model.stiffness));
   if (scene_.surface) set_contact_nodes();
+  const std::size_t owned = model.mass.size();
+  terms_.resize(2 * moving_things() + owned + (scene_.body_acceleration != Vector2{} ? owned : 0));
   ledger_.start(physics_, model.mesh.nodes.owned, boundary_.size(), contact_.size(),
                 static_cast<int>(straight_->size()));
   start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
-  std::vector<double> work;
-  for (int i = 0; i < model.mesh.nodes.owned; ++i) work.push_back(gravity_work(i, u_.data()[i]));
+  std::vector<double> work(scene.body_acceleration != Vector2{} ? model.mass.size() : 0);
+  for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), u_.data()[i]);
   start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 
@@ -122,13 +158,51 @@ void SlidingBody::set_contact_nodes() {
                           initial.pressure);
 }
 
-void SlidingBody::free_motion(const StepCoefficients& step, const BulkPhysics& physics) {
-  const BulkArrays arrays{
-      inverse_mass_.data(), force_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
+/// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
+/// in observed steps.
+void SlidingBody::free_motion(const StepCoefficients& step, Observed observed) {
+  const bool everything = observed == Observed::everything;
+  const BulkPhysics physics = everything ? keeping_acceleration(physics_) : physics_;
+  const BulkArrays arrays{inverse_mass_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
   const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
                         scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
-  std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), move); },
-             model_.stiffness);
+  const auto multiply = [&](const auto& moves) {
+    std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), moves); },
+               model_.stiffness);
+  };
+  const auto nothing = [](int, int) {};
+  if (everything) {
+    const std::size_t owned = model_.mass.size();
+    std::copy(u_.data() + owned, u_.data() + kept_.size(), kept_.data() + owned);
+    const auto keep = [&](int begin, int end) {
+      std::copy(u_.data() + begin, u_.data() + end, kept_.data() + begin);
+    };
+    const auto observe = [&](int begin, int end) { observe_nodes(step, begin, end); };
+    multiply(MoveFrom{move, force_.data(), keep, observe});
+  } else if (passing_.empty()) {
+    multiply(MoveFrom{move, force_.data(), nothing, nothing});
+  } else {
+    MovePassing moves{move, boundary_.node, force_.data()};
+    std::visit([&](const auto& stiffness) { stiffness.multiply_passing(u_.data(), passing_, moves); },
+               model_.stiffness);
+  }
+  if (observed == Observed::boundary && !physics.keeps_acceleration) free_acceleration_at_boundary();
+}
+
+/// As the free motion makes it, to the same bits.
+void SlidingBody::free_acceleration_at_boundary() {
+  const double lag = scene_.damping.stiffness / time_step_;
+  for (int k = 0; k < boundary_.size(); ++k) {
+    const int i = boundary_.node[k];
+    for (int axis = 0; axis < 2; ++axis) {
+      const double internal = force_[i][axis];
+      double resistance = internal;
+      if (physics_.stiffness_damping) resistance += lag * (internal - boundary_.internal[k][axis]);
+      if (physics_.mass_damping)
+        resistance += scene_.damping.mass / inverse_mass_[i] * boundary_.predictor[k][axis];
+      a_.data()[i][axis] = scene_.body_acceleration[axis] - resistance * inverse_mass_[i];
+    }
+  }
 }
 
 NodalState SlidingBody::state(bool with_acceleration) const {
@@ -136,11 +210,12 @@ NodalState SlidingBody::state(bool with_acceleration) const {
 }
 
 /// What the step must not lose of the one before.
-void SlidingBody::remember(bool observed, const NodalState& moving) {
+void SlidingBody::remember(Observed observed, const NodalState& moving) {
   static const LogEvent event("BoundaryMemory");
   const LogEvent::Scope scope(event);
-  if (observed) std::copy_n(u_.data(), kept_.size(), kept_.data());
   boundary_.remember(moving, force_.data());
+  if (observed == Observed::boundary)
+    for (int k = 0; k < boundary_.size(); ++k) kept_[boundary_.node[k]] = boundary_.displacement[k];
   if (physics_.keeps_force()) std::swap(force_, previous_force_);
 }
 
@@ -167,25 +242,25 @@ void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const 
     ledger_.correct_bulk(physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(), first);
 }
 
-void SlidingBody::advance(bool observed) {
+void SlidingBody::advance(Observed observed) {
   const double now = static_cast<double>(step_) * time_step_,
                next = static_cast<double>(step_ + 1) * time_step_;
   const bool first = step_ == 0;
-  observed = observed || first;  // the energy at the start is what the ledger counts from
+  if (first) observed = Observed::everything;  // the energy at the start is what the ledger counts from
   const StepCoefficients step =
       first ? first_step(time_step_, scene_.beta2) : beta2_step(time_step_, scene_.beta2);
-  const NodalState moving = state(observed || physics_.keeps_acceleration);
+  const NodalState moving = state(observed != Observed::nothing || physics_.keeps_acceleration);
 
+  remember(observed, moving);
   {
     static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
     u_.end_update();
   }
-  remember(observed, moving);
   {
     static const LogEvent event("StiffnessMotion");
     const LogEvent::Scope scope(event);
-    free_motion(step, observed ? keeping_acceleration(physics_) : physics_);
+    free_motion(step, observed);
   }
   {
     static const LogEvent event("LoadsSupports");
@@ -202,7 +277,7 @@ void SlidingBody::advance(bool observed) {
     u_.begin_update();
   }
   add_to_ledger(first, step, moving);
-  if (observed) find_velocity(step);
+  if (observed != Observed::nothing) observe_boundary(step, observed);
   ++step_;
   if (first) {
     const Energy start = energy();
@@ -210,12 +285,34 @@ void SlidingBody::advance(bool observed) {
   }
 }
 
-void SlidingBody::find_velocity(const StepCoefficients& step) {
+/// The velocity at t_n of owned nodes, and the terms of the energies, J/m: ½vᵀMv, the scheme's correction of
+/// it (Δt²β2/4) aᵀMa, ½uᵀKu, the work of gravity.
+void SlidingBody::observe_nodes(const StepCoefficients& step, int begin, int end) {
+  const std::size_t moving = moving_things();
+  double *const kinetic = terms_.data(), *const correction = kinetic + moving,
+                *const strain = correction + moving, *const gravity = strain + model_.mass.size();
+  const auto from = [begin](const Vector2* rows) { return rows[begin].data(); };
+  const SeenNodes seen{from(w_.data()),     from(a_.data()),     from(kept_.data()),
+                       from(force_.data()), &model_.mass[begin], v_.data()[begin].data(),
+                       kinetic + begin,     correction + begin,  strain + begin};
+  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
+  see(seen, end - begin, step.predictor - step.velocity, 0.25 * time_step_ * time_step_ * scene_.beta2,
+      model_.kernel.instructions);
+  if (scene_.body_acceleration != Vector2{})
+    for (int i = begin; i < end; ++i) gravity[i] = gravity_work(i, kept_[i]);
+}
+
+/// Where loads, supports and the surface have acted since the free motion.
+void SlidingBody::observe_boundary(const StepCoefficients& step, Observed observed) {
   static const LogEvent event("ObservedState");
   const LogEvent::Scope scope(event);
-  const double back = step.predictor - step.velocity;  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
-  for (int i = 0; i < model_.mesh.nodes.owned; ++i)
-    for (int axis = 0; axis < 2; ++axis) v_.data()[i][axis] = w_.data()[i][axis] - back * a_.data()[i][axis];
+  const double back = step.predictor - step.velocity;
+  for (const int i : boundary_.node)
+    if (observed == Observed::everything)
+      observe_nodes(step, i, i + 1);
+    else
+      for (int axis = 0; axis < 2; ++axis)
+        v_.data()[i][axis] = w_.data()[i][axis] - back * a_.data()[i][axis];
 }
 
 double SlidingBody::surface_velocity() const { return scene_.surface ? scene_.surface->velocity(time()) : 0; }
@@ -231,25 +328,16 @@ double SlidingBody::gravity_work(int node, const Vector2& displacement) const {
   return model_.mass[node] * (gravity[0] * displacement[0] + gravity[1] * displacement[1]);
 }
 
-/// What this rank adds to ½vᵀMv, to the scheme's correction of it (Δt²β2/4) aᵀMa, to ½uᵀKu and to the work of
-/// gravity, node by node, J/m.
+/// Nodes and plates.
+std::size_t SlidingBody::moving_things() const { return model_.mass.size() + straight_->size(); }
+
+/// What this rank adds to the sums that `observe_nodes` has made the terms of; plates are added here.
 SlidingBody::BulkTerms SlidingBody::bulk_terms() const {
   const double correction = 0.25 * time_step_ * time_step_ * scene_.beta2;
-  const auto owned = static_cast<std::size_t>(model_.mesh.nodes.owned), moving = owned + straight_->size();
-  const bool gravity = scene_.body_acceleration != Vector2{};
-  terms_.resize(2 * moving + owned + (gravity ? owned : 0));
+  const std::size_t owned = model_.mass.size(), moving = moving_things();
   const std::span all(terms_);
   const auto velocity = all.first(moving), acceleration = all.subspan(moving, moving),
              strain = all.subspan(2 * moving, owned), work = all.subspan(2 * moving + owned);
-  for (std::size_t i = 0; i < owned; ++i) {
-    const Vector2 &v = v_.data()[i], &a = a_.data()[i], &u = kept_[i], &force = force_[i];
-    // In this order: a square alone may be beyond all numbers where the energy is not.
-    const double half = 0.5 * model_.mass[i], part = correction * model_.mass[i];
-    velocity[i] = half * v[0] * v[0] + half * v[1] * v[1];
-    acceleration[i] = part * a[0] * a[0] + part * a[1] * a[1];
-    strain[i] = 0.5 * (u[0] * force[0] + u[1] * force[1]);
-  }
-  for (std::size_t i = 0; i < work.size(); ++i) work[i] = gravity_work(static_cast<int>(i), kept_[i]);
   std::size_t plate = owned;
   for (const auto& side : *straight_) {
     const auto energies = side->energies();

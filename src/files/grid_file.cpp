@@ -4,8 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
 #include <span>
 
+#include "object_header.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
@@ -41,6 +43,7 @@ std::size_t stored_entries(hid_t dataset, const std::string& path, bool of_whole
   const double declared = count * static_cast<double>(size);
   const double stored = static_cast<double>(H5Dget_storage_size(dataset));
   require(declared <= 1032 * stored, path, "declares more numbers than the file holds");
+  require(chunks_are_sound(dataset), path, "is damaged");
   return static_cast<std::size_t>(count);
 }
 
@@ -62,6 +65,18 @@ void unpack_stream(const std::vector<int>& stream, PlaneGrid& grid) {
     grid.first.push_back(static_cast<int>(grid.corners.size()));
     k += count;
   }
+}
+
+/// In UTF-8, without control characters.
+bool is_text(const std::string& word) {
+  int expected = 0;  // continuation bytes
+  for (const char letter : word) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool continues = (byte & 0xc0) == 0x80;
+    if (continues != (expected > 0) || byte < 0x20 || byte == 0x7f || byte >= 0xf8) return false;
+    expected = continues ? expected - 1 : byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : byte >= 0xc0 ? 1 : 0;
+  }
+  return expected == 0;
 }
 
 bool all_within(const std::vector<int>& numbers, std::size_t count) {
@@ -123,6 +138,10 @@ void GridFile::read_mesh(PlaneGrid& grid) const {
   for (std::size_t k = 0; k < x.size(); k += 2) grid.points.push_back({x[k], x[k + 1]});
   grid.region = integers("/mesh/region");
   grid.regions = texts("/mesh/region", "names");
+  require(std::ranges::all_of(grid.regions, is_text), "/mesh/region's attribute names",
+          "is no list of texts");
+  require(std::set<std::string>(grid.regions.begin(), grid.regions.end()).size() == grid.regions.size(),
+          "/mesh/region's attribute names", "has a name twice");
   if (cells.size() == 1) {
     unpack_stream(integers("/mesh/cells"), grid);
   } else {

@@ -22,9 +22,45 @@ std::string complaint(const std::string& folder, const std::string& fault) {
   return "-output_folder '" + folder + "' " + fault + "; give a folder that you may write to";
 }
 
-/// What is wrong with the folder, once made ready and locked; empty when nothing is.
+constexpr const char* ends[] = {"", ".partial",
+                                ".journal"};  ///< of a file, and of what a kill left beside it
+
+/// Removes the files of an older run; what is wrong, or nothing.
+std::string remove_older(const std::string& folder, const std::vector<std::string>& files) {
+  std::error_code error, ignored;
+  for (const std::string& file : files) {
+    fs::remove(fs::path(folder) / file, error);
+    // What a run that was killed may have left beside it is in nobody's way if it cannot be removed.
+    for (const char* end : ends) fs::remove(fs::path(folder) / (file + end), ignored);
+    if (error)
+      return complaint(folder, "holds a " + file + " that cannot be removed (" + error.message() + ")");
+  }
+  return "";
+}
+
+/// Moves them into another folder, in place of what that had under their names; what is wrong, or nothing.
+std::string keep_older(const std::string& folder, const std::vector<std::string>& files,
+                       const std::string& to) {
+  std::error_code error;
+  fs::create_directories(to, error);
+  if (error) return complaint(to, "cannot be created (" + error.message() + ")");
+  if (std::string fault = remove_older(to, files); !fault.empty()) return fault;
+  for (const std::string& file : files)
+    for (const char* end : ends) {
+      const fs::path from = fs::path(folder) / (file + end);
+      if (!fs::exists(from, error)) continue;
+      fs::rename(from, fs::path(to) / (file + end), error);
+      if (error)
+        return complaint(folder, "holds a " + file + " that cannot be moved (" + error.message() + ")");
+    }
+  return "";
+}
+
+/// What is wrong with the folder, once made ready and locked; empty when nothing is. `kept`: where the older
+/// run is, if it is worth it.
 std::string prepare(const std::string& folder, const std::vector<std::string>& replaced,
-                    std::unique_ptr<FolderLock>& lock) {
+                    const OutputFolder::WorthKeeping& worth_keeping, std::unique_ptr<FolderLock>& lock,
+                    std::string& kept) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return complaint(folder, "cannot be created (" + error.message() + ")");
@@ -35,15 +71,12 @@ std::string prepare(const std::string& folder, const std::vector<std::string>& r
   } catch (const LibraryError& failure) {
     return complaint(folder, std::string("cannot be written to (") + failure.what() + ")");
   }
-  for (const std::string& file : replaced) {
-    fs::remove(fs::path(folder) / file, error);
-    // What a run that was killed may have left beside it is in nobody's way if it cannot be removed.
-    std::error_code ignored;
-    for (const char* end : {".partial", ".journal"}) fs::remove(fs::path(folder) / (file + end), ignored);
-    if (error)
-      return complaint(folder, "holds a " + file + " that cannot be removed (" + error.message() + ")");
-  }
-  return "";
+  for (const std::string& file : replaced)
+    if (fs::is_directory(fs::path(folder) / file, error))
+      return complaint(folder, "holds a folder named " + file + ", which is to be a file");
+  if (!worth_keeping || !worth_keeping(folder)) return remove_older(folder, replaced);
+  kept = folder + "/replaced";
+  return keep_older(folder, replaced, kept);
 }
 
 }  // namespace
@@ -78,12 +111,13 @@ void refuse_unwritable(MPI_Comm comm, const std::string& folder) {
   throw_together(comm, is_root(comm) ? why_unwritable(folder) : "");
 }
 
-OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced)
+OutputFolder::OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced,
+                           const WorthKeeping& worth_keeping)
     : comm_(comm), path_(folder) {
   // Past a limit on the size of files a write then fails with words, and the process is not ended by a
   // signal.
   (void)std::signal(SIGXFSZ, SIG_IGN);
-  throw_together(comm, is_root(comm) ? prepare(folder, replaced, lock_) : "");
+  throw_together(comm, is_root(comm) ? prepare(folder, replaced, worth_keeping, lock_, kept_) : "");
 }
 
 OutputFolder::~OutputFolder() = default;

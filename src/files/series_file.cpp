@@ -26,10 +26,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-hid_t memory_type(SeriesFile::Storage storage) {
-  return storage == SeriesFile::Storage::byte ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
-}
-
 /// As many as make a chunk of a good size, and no more than there will be.
 hsize_t rows_in_chunk(double expected, std::size_t row) {
   const double most = static_cast<double>(chunk_bytes) / static_cast<double>(std::max<std::size_t>(row, 1));
@@ -143,10 +139,15 @@ void SeriesFile::end_row() {
   if (!sound()) return;
   ++rows_;
   const hsize_t waiting = rows_ - written_;
-  for (const Column& column : columns_)
-    if (column.batch.size() != waiting * column.bytes)
+  for (Column& column : columns_) {
+    if (column.batch.size() != waiting * column.bytes) {
       fault_ =
           path_ + ": '" + column.path + "' was not given exactly once in row " + std::to_string(rows_ - 1);
+      return;
+    }
+    column.content_before = column.content.value();
+    column.content.add(column.batch.data() + (waiting - 1) * column.bytes, column.bytes);
+  }
   // The first row at once: until then HDF5's file is not one.
   if (written_ == 0 || waiting * row_bytes_ >= batch_bytes || seconds_since(last_) >= pause_) flush();
 }
@@ -225,7 +226,7 @@ void SeriesFile::close() {
       if (column.dataset.close() < 0) throw LibraryError(hdf5_message());
     flush_file();
   });
-  columns_.clear();
+  for (Column& column : columns_) (void)column.dataset.close();  // those that a failure left open
   guarded("closing: ", [&] { close_file(file_); });
   (void)file_.close();
   if (!published_) (void)std::remove(partial_path(path_).c_str());  // not a file that anybody could read
@@ -244,6 +245,23 @@ std::vector<double> SeriesFile::read(int id) {
   values.resize(known + waiting);
   if (waiting > 0) std::memcpy(values.data() + known, column.batch.data(), column.batch.size());
   return values;
+}
+
+std::vector<std::uint64_t> SeriesFile::contents(hsize_t rows) const {
+  std::vector<std::uint64_t> found;
+  for (const Column& column : columns_)
+    found.push_back(rows == rows_ ? column.content.value() : column.content_before);
+  return found;
+}
+
+void SeriesFile::expect(const std::vector<std::uint64_t>& contents) {
+  checked([&] {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      read_content(columns_[k]);
+      if (columns_[k].content.value() != contents[k])
+        throw LibraryError("'" + columns_[k].path + "' has other values than the run wrote");
+    }
+  });
 }
 
 double SeriesFile::bytes(double rows) const {

@@ -4,6 +4,10 @@
 
 namespace slipscale {
 
+inline hid_t memory_type(SeriesFile::Storage storage) {
+  return storage == SeriesFile::Storage::byte ? H5T_NATIVE_UINT8 : H5T_NATIVE_DOUBLE;
+}
+
 inline hid_t file_type(SeriesFile::Storage storage) {
   return storage == SeriesFile::Storage::byte ? H5T_STD_U8LE : H5T_IEEE_F64LE;
 }

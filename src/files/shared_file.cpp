@@ -138,10 +138,13 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
     more(dataset);
   });
   std::string fault;
+  ContentChecksum content = content_begun(about.path, slice.shape);
+  const std::size_t bytes = row_bytes(slice.shape, type);
   // A rank that cannot write goes on receiving, so that nobody waits for it.
-  collect_rows(comm_, {slice.begin, slice.count, row_bytes(slice.shape, type)}, rows,
+  collect_rows(comm_, {slice.begin, slice.count, bytes}, rows,
                [&](std::uint64_t begin, std::uint64_t count, const void* piece) {
                  if (!fault.empty()) return;
+                 content.add(piece, count * bytes);
                  try {
                    write_rows(dataset, slice.shape, begin, count, type, piece, about.path);
                    check_written(file_, about.path);
@@ -151,6 +154,7 @@ void SharedFile::write(const DatasetDescription& about, const DatasetSlice& slic
                });
   on_root([&] {
     if (!fault.empty()) throw LibraryError(fault);
+    contents_ += content.value();
     if (dataset.close() < 0) throw LibraryError(hdf5_message());
   });
 }
@@ -197,6 +201,7 @@ void SharedFile::write_view(const DatasetDescription& about, const DatasetView& 
     hdf5(H5Pset_create_intermediate_group(links, 1), what);
     const Hdf5Dataset dataset(
         hdf5(H5Dcreate2(file_, what.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), what));
+    contents_ += contents_of_view(dataset, what);
     describe_dataset(dataset, about.units, about.text);
   });
 }

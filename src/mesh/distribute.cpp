@@ -31,36 +31,50 @@ std::vector<PetscInt> regions(const Whole& whole) {
   return region;
 }
 
-/// The edges of one boundary, on rank 0 only and then on all ranks: they are few.
-std::vector<NumberedSide> numbered_sides(MPI_Comm comm, const Whole& whole, std::size_t boundary) {
-  std::vector<NumberedSide> sides(static_cast<std::size_t>(whole.boundaries[boundary].edge_count));
-  if (!whole.plain.cells.empty())
-    std::ranges::transform(whole.plain.boundaries[boundary].sides, sides.begin(), [&](const CellSide& side) {
-      const auto corners = corners_of(whole.plain.cells[side.cell]);
-      return NumberedSide{whole.cell_number[side.cell], whole.node_number[corners[side.corner]],
-                          whole.node_number[corners[(side.corner + 1) % corners.size()]]};
-    });
-  MPI_Bcast(sides.data(), static_cast<int>(3 * sides.size()), MPIU_INT, 0, comm);
+/// The edges of each boundary, on rank 0 only and then on all ranks: they are few.
+std::vector<std::vector<NumberedSide>> numbered_sides(MPI_Comm comm, const Whole& whole) {
+  std::vector<std::vector<NumberedSide>> sides;
+  for (std::size_t b = 0; b < whole.boundaries.size(); ++b) {
+    auto& own = sides.emplace_back(static_cast<std::size_t>(whole.boundaries[b].edge_count));
+    if (!whole.plain.cells.empty())
+      std::ranges::transform(whole.plain.boundaries[b].sides, own.begin(), [&](const CellSide& side) {
+        const auto corners = corners_of(whole.plain.cells[side.cell]);
+        return NumberedSide{whole.cell_number[side.cell], whole.node_number[corners[side.corner]],
+                            whole.node_number[corners[(side.corner + 1) % corners.size()]]};
+      });
+    MPI_Bcast(own.data(), static_cast<int>(3 * own.size()), MPIU_INT, 0, comm);
+  }
   return sides;
+}
+
+/// The DMPlex of the rank's part; `migration` stays empty on one rank.
+OwnedDM cut(MPI_Comm comm, const Whole& whole, Partitioner partitioner, OwnedSF& migration) {
+  OwnedDM dm = plex_of(comm, whole.plain), part;
+  petsc(DMViewFromOptions(dm, nullptr, "-dm_view"));
+  // Overlap by shared nodes: every cell around an owned node must be local.
+  petsc(DMSetBasicAdjacency(dm, PETSC_FALSE, PETSC_TRUE));
+  set_partition(comm, dm, partitioner, whole);
+  petsc(DMPlexDistribute(dm, 1, migration.put(), part.put()));
+  return part.get() ? std::move(part) : std::move(dm);
 }
 
 }  // namespace
 
 void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mesh) {
-  OwnedDM dm = plex_of(comm, whole.plain);
-  petsc(DMViewFromOptions(dm, nullptr, "-dm_view"));
-  // Overlap by shared nodes: every cell around an owned node must be local.
-  petsc(DMSetBasicAdjacency(dm, PETSC_FALSE, PETSC_TRUE));
-  set_partition(comm, dm, partitioner, whole);
+  const auto sides = numbered_sides(comm, whole);
+  std::vector<PetscInt> number = numbers(whole), region = regions(whole);
   OwnedSF migration;
-  OwnedDM parts;
-  petsc(DMPlexDistribute(dm, 1, migration.put(), parts.put()));
-  mesh.dm = parts.get() ? std::move(parts) : std::move(dm);
-  petsc(DMGetCellCoordinatesLocalSetUp(mesh.dm));  // collective, so before the cells are looked at one by one
-  extract(comm, migrate(migration, mesh.dm, numbers(whole)), migrate(migration, mesh.dm, regions(whole)),
-          mesh);
+  {
+    const OwnedDM dm = cut(comm, whole, partitioner, migration);
+    whole.plain = {}, whole.around = {}, whole.node_number = {}, whole.cell_number = {};
+    petsc(DMGetCellCoordinatesLocalSetUp(dm));  // collective, so before the cells are looked at one by one
+    petsc(DMViewFromOptions(dm, nullptr, "-dm_view_distributed"));
+    number = migrate(migration, dm, std::move(number));
+    region = migrate(migration, dm, std::move(region));
+    extract(comm, dm, number, region, mesh);
+  }
   for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
-    fill_boundary(numbered_sides(comm, whole, b), mesh.nodes, mesh.cells, whole.boundaries[b]);
+    fill_boundary(sides[b], mesh.nodes, mesh.cells, whole.boundaries[b]);
   mesh.regions = std::move(whole.regions);
   mesh.boundaries = std::move(whole.boundaries);
   mesh.periodic = whole.periodic;
@@ -70,7 +84,6 @@ void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mes
   mesh.edge_rounding = whole.edge_rounding;
   mesh.nodes.total = whole.node_count;
   mesh.cells.total = whole.cell_count;
-  petsc(DMViewFromOptions(mesh.dm, nullptr, "-dm_view_distributed"));
 }
 
 }  // namespace slipscale::mesh_stages

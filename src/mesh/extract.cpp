@@ -24,10 +24,10 @@ std::vector<char> owned_points(DM dm) {
 /// Fills the plain arrays of a mesh from the rank's DMPlex.
 class Extraction {
  public:
-  Extraction(MPI_Comm comm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
+  Extraction(MPI_Comm comm, DM dm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
              Mesh& mesh)
       : comm_(comm),
-        dm_(mesh.dm),
+        dm_(dm),
         geometry_(dm_),
         number_(number),
         region_(region),
@@ -52,6 +52,8 @@ class Extraction {
       return std::pair(!owned_[a], number_[a]) < std::pair(!owned_[b], number_[b]);
     });
     local_.resize(vertices.size());
+    mesh_.nodes.number.reserve(vertices.size());
+    mesh_.nodes.position.reserve(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       local_[vertices[k] - node_begin_] = static_cast<int>(k);
       mesh_.nodes.number.push_back(number_[vertices[k]]);
@@ -86,6 +88,7 @@ class Extraction {
     std::iota(order.begin(), order.end(), cell_begin_);
     std::sort(order.begin(), order.end(), [&](PetscInt a, PetscInt b) { return number_[a] < number_[b]; });
     Cells& cells = mesh_.cells;
+    reserve(order.size());
     cells.first.push_back(0);
     for (PetscInt cell : order) {
       const CellGeometry geometry = geometry_.cell(cell);
@@ -103,6 +106,18 @@ class Extraction {
       cells.owned.push_back(owned_[cell]);
       cells.region.push_back(static_cast<int>(region_[cell]));
     }
+  }
+
+  /// They stay for the whole run, so they take what they need and not what lists that grow take.
+  void reserve(std::size_t cells) {
+    std::size_t corners = 0;
+    for (PetscInt cell = cell_begin_; cell < cell_end_; ++cell) corners += geometry_.corner_count(cell);
+    mesh_.cells.first.reserve(cells + 1);
+    mesh_.cells.corner_nodes.reserve(corners);
+    mesh_.cells.corners.reserve(corners);
+    mesh_.cells.number.reserve(cells);
+    mesh_.cells.owned.reserve(cells);
+    mesh_.cells.region.reserve(cells);
   }
 
   /// Edges between cells of this rank and cells of others.
@@ -158,9 +173,9 @@ class Extraction {
 
 }  // namespace
 
-void extract(MPI_Comm comm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
+void extract(MPI_Comm comm, DM dm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
              Mesh& mesh) {
-  Extraction(comm, number, region, mesh).run();
+  Extraction(comm, dm, number, region, mesh).run();
 }
 
 }  // namespace slipscale::mesh_stages

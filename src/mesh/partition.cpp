@@ -101,7 +101,9 @@ std::vector<PetscInt> runs_of_the_order(int ranks, const std::vector<PetscInt>& 
   return part;
 }
 
-std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, const Whole& whole) {
+}  // namespace
+
+std::vector<PetscInt> cell_parts(MPI_Comm comm, Partitioner partitioner, int ranks, const Whole& whole) {
   if (partitioner == Partitioner::simple) return runs_of_the_order(ranks, whole.cell_number);
   const auto& cells = whole.plain.cells;
   Rows graph;
@@ -110,12 +112,10 @@ std::vector<PetscInt> parts(MPI_Comm comm, Partitioner partitioner, int ranks, c
   return cells.empty() ? std::vector<PetscInt>{} : metis_parts(std::move(graph), ranks);
 }
 
-}  // namespace
-
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole) {
   const int ranks = ranks_of(comm);
   if (ranks == 1) return;
-  const std::vector<PetscInt> part = parts(comm, partitioner, ranks, whole);
+  const std::vector<PetscInt> part = cell_parts(comm, partitioner, ranks, whole);
   std::vector<PetscInt> sizes(static_cast<std::size_t>(ranks), 0), points(part.size());
   for (PetscInt rank : part) ++sizes[rank];
   std::iota(points.begin(), points.end(), 0);

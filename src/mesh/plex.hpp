@@ -22,6 +22,7 @@ class PlexGeometry {
   CellGeometry cell(PetscInt cell) const;
   /// Coordinates that the cell has of its own, in pairs; 0 when it sees its vertices where these are.
   int own_corners(PetscInt cell) const;
+  std::size_t corner_count(PetscInt cell) const { return corners_of(vertices_[cell - begin_]).size(); }
   Vector2 position(PetscInt vertex) const;  ///< m
 
  private:

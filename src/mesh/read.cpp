@@ -1,5 +1,6 @@
 #include "slipscale/mesh/read.hpp"
 
+#include "slipscale/base/large_array.hpp"
 #include "stages.hpp"
 
 namespace slipscale {
@@ -44,11 +45,13 @@ MeshSource periodic_mesh_source(const Options& options) {
 
 Mesh read_mesh(MPI_Comm comm, const MeshSource& source) {
   Mesh mesh;
+  mesh.comm = comm;
   mesh.file = source.file;
   mesh_stages::Whole whole = mesh_stages::load_whole(comm, source);
   mesh.checksum = whole.checksum;
   mesh.notes = whole.notes;
   mesh_stages::distribute(comm, std::move(whole), source.partitioner, mesh);
+  give_back_freed();
   return mesh;
 }
 

@@ -53,15 +53,19 @@ void number_whole(Whole& whole);
 EdgeRounding edge_rounding(const PlainMesh& mesh, const Vector2& lower, const Vector2& upper,
                            double shortest_edge);
 
+/// The part of each cell when the mesh is cut into so many; on rank 0, elsewhere nothing. Only PT-Scotch is
+/// collective, and cuts into as many parts as there are ranks.
+std::vector<PetscInt> cell_parts(MPI_Comm comm, Partitioner partitioner, int ranks, const Whole& whole);
+
 /// Gives the DMPlex of the whole mesh the partition that it shall be cut by. Collective.
 void set_partition(MPI_Comm comm, DM dm, Partitioner partitioner, const Whole& whole);
 
 /// Cuts the mesh with one layer of overlap and fills the plain arrays of `mesh`. Collective.
 void distribute(MPI_Comm comm, Whole&& whole, Partitioner partitioner, Mesh& mesh);
 
-/// Fills the plain arrays of `mesh` from its DMPlex. The whole-mesh number of each point and the region of
-/// each cell are by plex point. Collective.
-void extract(MPI_Comm comm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
+/// Fills the plain arrays of `mesh` from the DMPlex of the rank's part. The whole-mesh number of each point
+/// and the region of each cell are by plex point. Collective.
+void extract(MPI_Comm comm, DM dm, const std::vector<PetscInt>& number, const std::vector<PetscInt>& region,
              Mesh& mesh);
 
 /// An edge of a boundary, as every rank can find it: whole-mesh numbers of the cell beside it and of its

@@ -13,6 +13,7 @@
 #include "slipscale/morphology/drawing.hpp"
 #include "slipscale/morphology/grid_file.hpp"
 #include "slipscale/morphology/smooth.hpp"
+#include "strip.hpp"
 
 namespace slipscale {
 namespace {
@@ -24,6 +25,7 @@ std::vector<std::string> region_names(const Recipe& recipe) {
   std::vector<std::string> names{"matrix"};
   if (recipe.composite == Composite::laminate) names.push_back("inclusion");
   for (const Family& family : recipe.families) names.push_back(family.region);
+  if (recipe.microstructure_height) names.push_back(morphology::region_above);
   return names;
 }
 
@@ -43,9 +45,8 @@ bool good_enough(const MeshQuality& quality, double allowed) {
       x[0], x[1], angle(worst) * 180 / std::numbers::pi, recipe.mesh.worst_angle * 180 / std::numbers::pi));
 }
 
-void mesh_pieces(const Recipe& recipe, const std::vector<Piece>& pieces, GmshModel& gmsh,
-                 Composed& composed) {
-  gmsh.mesh(draw(composed.block, pieces), region_names(recipe), recipe.room, recipe.mesh);
+void mesh_drawing(const Recipe& recipe, const Drawing& drawing, GmshModel& gmsh, Composed& composed) {
+  gmsh.mesh(drawing, region_names(recipe), recipe.room, recipe.mesh);
   composed.mesh = gmsh.read();
   gmsh.move(composed.mesh, smooth(composed.mesh, smoothed_below));
   composed.quality = quality(composed.mesh);
@@ -63,7 +64,7 @@ void compose_laminate(const Recipe& recipe, GmshModel& gmsh, Composed& composed)
   const std::vector<Piece> pieces = layers(recipe.laminate, recipe.room, recipe.mesh.size.interface);
   int layers_drawn = 0;
   for (const Piece& piece : pieces) layers_drawn = std::max(layers_drawn, piece.inclusion + 1);
-  mesh_pieces(recipe, pieces, gmsh, composed);
+  mesh_drawing(recipe, draw(composed.block, pieces), gmsh, composed);
   composed.drawn_area.assign(static_cast<std::size_t>(layers_drawn), 0);
   for (const Piece& piece : pieces) {
     std::vector<Vector2> corners;
@@ -72,11 +73,18 @@ void compose_laminate(const Recipe& recipe, GmshModel& gmsh, Composed& composed)
   }
 }
 
+Drawing drawing_of(const Recipe& recipe, const Composed& composed) {
+  const std::vector<Inclusion>& inclusions = composed.placement.inclusions;
+  if (composed.strip) return morphology::draw_strip(recipe, inclusions, *composed.strip);
+  return draw(composed.block, polygons(inclusions, recipe.room, recipe.mesh.size.interface));
+}
+
 void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& composed) {
   Placement& placement = composed.placement;
   placement = recipe.composite == Composite::random
                   ? place_at_random(recipe.families, recipe.room, recipe.seed)
                   : place_in_array(recipe.families.front(), recipe.room, recipe.array);
+  if (recipe.microstructure_height) composed.strip = morphology::end_strip(recipe, placement);
   Random random(recipe.seed);
   std::vector<Vector2> drawn;
   for (const Inclusion& inclusion : placement.inclusions) drawn.push_back(inclusion.centre);
@@ -84,17 +92,17 @@ void compose_inclusions(const Recipe& recipe, GmshModel& gmsh, Composed& compose
     if (recipe.mesh.cell == CellShape::grid)
       fit_inclusions(recipe, region_names(recipe), composed);
     else
-      mesh_pieces(recipe, polygons(placement.inclusions, recipe.room, recipe.mesh.size.interface), gmsh,
-                  composed);
+      mesh_drawing(recipe, drawing_of(recipe, composed), gmsh, composed);
     if (good_enough(composed.quality, recipe.mesh.worst_angle) || round == repairs) break;
-    const Mending mending =
-        mend(placement.inclusions, drawn, recipe.room, composed.mesh, recipe.mesh.worst_angle, recipe.repair,
-             recipe.composite == Composite::random ? &random : nullptr);
+    const Room room = composed.strip ? morphology::room_below(recipe.room, *composed.strip) : recipe.room;
+    const Mending mending = mend(placement.inclusions, drawn, room, composed.mesh, recipe.mesh.worst_angle,
+                                 recipe.repair, recipe.composite == Composite::random ? &random : nullptr);
     if (!mending.done()) break;
     composed.moved += mending.moved;
     composed.redrawn += mending.redrawn;
     composed.dropped += mending.dropped;
   }
+  if (composed.strip) composed.strip->whole = morphology::across(placement.inclusions, *composed.strip);
   std::ranges::fill(placement.fraction, 0.0);
   composed.drawn_area.assign(placement.inclusions.size(), 0);
   for (std::size_t k = 0; k < placement.inclusions.size(); ++k) {
@@ -133,7 +141,7 @@ Composed compose(const Recipe& recipe, GmshModel& gmsh) {
       else if (recipe.mesh.structured)
         compose_grid(recipe, gmsh, composed);
       else
-        mesh_pieces(recipe, {}, gmsh, composed);
+        mesh_drawing(recipe, draw(composed.block, {}), gmsh, composed);
       break;
     case Composite::laminate:
       compose_laminate(recipe, gmsh, composed);

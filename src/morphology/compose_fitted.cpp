@@ -8,6 +8,7 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/morphology/drawing.hpp"
+#include "strip.hpp"
 
 namespace slipscale {
 
@@ -93,6 +94,7 @@ void fit_inclusions(const Recipe& recipe, const std::vector<std::string>& region
   const Lattice lattice = lattice_of(recipe, composed);
   FittedGrid grid = fitted_grid(lattice, bodies, drawn, regions);
   if (!grid.unresolved.empty()) refuse_unresolved(grid, recipe, composed);
+  if (composed.strip) name_above(grid.mesh, composed.grid[0], composed.strip->row);
   take(std::move(grid), composed);
 }
 

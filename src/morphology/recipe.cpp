@@ -116,6 +116,20 @@ double usual_clearance(const Recipe& recipe) {
   return std::max(length, 0.5 * shallow * widest);
 }
 
+void read_microstructure_height(const Options& options, Recipe& recipe) {
+  const std::string text = options.text("microstructure_height");
+  if (text == "none") return;
+  const double height = std::strtod(text.c_str(), nullptr), block = recipe.room.block.height(),
+               size = recipe.mesh.size.bulk;
+  const std::string fault =
+      format("-microstructure_height {:g} leaves less than a cell ({:g} m) ", height, size);
+  if (height < size) throw UserError(fault + "below it; give more, or a smaller -size");
+  if (height > block - size)
+    throw UserError(fault + format("above it in a block of {:g} m; give at most {:.3g}, or leave it out",
+                                   block, block - size));
+  recipe.microstructure_height = height;
+}
+
 void read_room(const Options& options, Recipe& recipe) {
   Room& room = recipe.room;
   const MeshSize& size = recipe.mesh.size;
@@ -123,7 +137,10 @@ void read_room(const Options& options, Recipe& recipe) {
   room.clearance = length_or(options, "clearance", usual_clearance(recipe));
   if (!room.periodic[0] || !room.periodic[1])
     room.edge = chosen<Edge>(options.text("edge"), {{"cut", Edge::cut}, {"inside", Edge::inside}});
-  if (!room.periodic[1]) room.keep_out = options.real("keep_out");
+  if (!room.periodic[1]) {
+    room.keep_out = options.real("keep_out");
+    read_microstructure_height(options, recipe);
+  }
   recipe.repair = length_or(options, "repair", size.interface);
 }
 

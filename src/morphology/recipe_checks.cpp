@@ -59,7 +59,7 @@ double thinnest(const Recipe& recipe) {
 }  // namespace
 
 std::set<std::string> read_family_names(Options& options) {
-  std::set<std::string> typed, names, count, taken{"matrix"};
+  std::set<std::string> typed, names, count, taken{"matrix", "homogenized"};
   for (const std::string& name : options.typed())
     if (name.starts_with(prefix.substr(1))) typed.insert("-" + name);
   for (const std::string& word : typed) {

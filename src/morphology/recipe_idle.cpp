@@ -8,7 +8,8 @@ using Names = std::vector<std::string>;
 
 const Names of_inclusions{"diameter", "diameter_deviation", "diameter_distribution",
                           "aspect",   "rounding",           "angle_deviation"},
-    of_placement{"arrangement", "columns", "rows", "seed", "gap", "clearance", "edge", "keep_out", "repair"},
+    of_placement{"arrangement", "columns", "rows",     "seed",   "gap",
+                 "clearance",   "edge",    "keep_out", "repair", "microstructure_height"},
     of_laminate{"layer_period"},
     of_image{"image_file", "image_levels", "image_regions", "image_pixel", "image_median", "image_despeckle"},
     of_inclusions_and_layers{"fraction", "angle"}, of_interfaces{"size_interface"},
@@ -77,7 +78,7 @@ void refuse_idle_with(const Options& options, Composite composite, const std::se
         {"seed"},
         {"with -arrangement " + options.text("arrangement"), "give -arrangement random", {"arrangement"}});
   if (options.text("periodic") == "xy")
-    options.refuse_idle({"edge", "keep_out"},
+    options.refuse_idle({"edge", "keep_out", "microstructure_height"},
                         {"with -periodic xy, which leaves no side", "give -periodic x", {"periodic"}});
 }
 

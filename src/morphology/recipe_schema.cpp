@@ -74,6 +74,10 @@ Schema placement_schema() {
        "inclusions at sides that are not periodic"},
       {"keep_out", Kind::real, "m", "0", range::non_negative,
        "thickness of a layer of matrix at the bottom, the contact surface"},
+      {"microstructure_height", Kind::text, "m", "none", range::one_of_or_number({"none"}, range::positive),
+       "inclusions only up to about this height above the contact, and above it one homogeneous region "
+       "'homogenized'; what the end would cut stays whole where its centre is below, and is left out "
+       "otherwise, or always with -edge inside"},
       {"repair", Kind::text, "m", "auto", range::one_of_or_number({"auto"}, range::non_negative),
        "an inclusion is moved by less than this, or else dropped, to mend a bad cell; auto: the edge length "
        "at interfaces"},

@@ -76,6 +76,18 @@ std::string placement_line(const Composed& composed) {
   return text + "\n";
 }
 
+std::string strip_line(const Composed& composed) {
+  const Strip& strip = *composed.strip;
+  double area = 0;
+  for (const double inclusion : composed.drawn_area) area += inclusion;
+  return "microstructure up to " + engineering(strip.end, "m") +
+         format(
+             " above the contact, {:.4f} of which is inclusions; of the others {} would be cut by its end "
+             "and {} "
+             "lie above it; {} reach across it\n",
+             area / (composed.block.width() * strip.end), strip.left_out, strip.above, strip.whole);
+}
+
 double part_of_picture(const Composed& composed, long pixels) {
   return static_cast<double>(pixels) / composed.pixels[0] / composed.pixels[1];
 }
@@ -140,6 +152,7 @@ std::string describe(const Recipe& recipe, const Composed& composed) {
   if (contoured(recipe)) text += contour_line(recipe, composed);
   text += region_table(recipe, composed);
   if (!composed.placement.inclusions.empty()) text += placement_line(composed);
+  if (composed.strip) text += strip_line(composed);
   if (!composed.drawn_area.empty())
     text += format("meshed against drawn area of an inclusion: at most {:.1e} apart\n", area_error(composed));
   text += histogram(quality);
@@ -174,6 +187,11 @@ std::string morphology_yaml(const std::map<std::string, std::string>& effective,
       yaml.integer("moved", composed.placement.moved + composed.moved, "repaired");
       yaml.integer("redrawn", composed.redrawn, "repaired");
       yaml.integer("dropped", composed.placement.dropped + composed.dropped, "repaired");
+      if (composed.strip) {
+        yaml.exact("microstructure_end", composed.strip->end, "m, above it is the region homogenized");
+        yaml.integer("across_end", composed.strip->whole, "inclusions that stay whole there");
+        yaml.integer("left_out", composed.strip->left_out, "inclusions that it would have cut");
+      }
       if (recipe.composite == Composite::array)
         yaml.exact("drawn_diameter", 2 * inclusions.front().half_length, "m");
     }

@@ -56,6 +56,21 @@ Extreme most_displaced(const SlidingBody& body) {
   return found;
 }
 
+double rounding_of_balance(const SlidingBody& body) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon(), digits = 8;
+  const double steps = static_cast<double>(body.steps_done());
+  const Vector2& gravity = body.scene().body_acceleration;
+  double sum = 0;
+  for (int i = 0; i < body.model().mesh.nodes.owned; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      const double mass = body.model().mass[i], moved = std::abs(body.displacement_n()[i][axis]),
+                   force = std::abs(body.internal_force_n()[i][axis]) + mass * std::abs(gravity[axis]);
+      sum += epsilon * moved * (steps * mass * std::abs(body.acceleration_n()[i][axis]) + digits * force);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, body.comm());
+  return sum;
+}
+
 Astray explain(const Energy& energy, const Extreme& extreme, const TimeStep& time, long history_every) {
   const std::string where = format("node {} (x = {:g} m, y = {:g} m, region {})", extreme.node,
                                    extreme.place[0], extreme.place[1], extreme.region);

@@ -1,9 +1,11 @@
 #include "slipscale/record/checkpoint.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <tuple>
 
 #include "slipscale/base/checksum.hpp"
@@ -30,6 +32,19 @@ std::string materials_checksum(const std::vector<Material>& materials) {
 
 void rename_or_throw(const std::string& from, const std::string& to) {
   if (std::rename(from.c_str(), to.c_str()) != 0) throw LibraryError(std::strerror(errno));
+}
+
+/// Of what a checkpoint holds, for a program that expects another to say so.
+constexpr const char* format_of_checkpoints = "2";
+
+/// A folder by the name of one of the files would stop the next checkpoint.
+void refuse_folders(const std::string& folder) {
+  for (const char* name : {checkpoint_names[0], checkpoint_names[1], checkpoint_next}) {
+    std::error_code none;
+    if (fs::is_directory(folder + "/" + name, none))
+      throw UserError("-restart: '" + folder + "/" + name +
+                      "' is a folder, but it is to be a file; move it away");
+  }
 }
 
 /// The newest sound checkpoint and what is to say of it. On the calling rank; UserError when there is none.
@@ -72,6 +87,14 @@ void on_root(MPI_Comm comm, const std::string& path, Action&& action) {
 
 }  // namespace
 
+bool can_go_on(const std::string& folder) {
+  std::ifstream summary(folder + "/summary.yaml");
+  for (std::string line; std::getline(summary, line);)
+    if (line.starts_with("state: finished")) return false;
+  return std::ranges::any_of(checkpoint_names,
+                             [&](const char* name) { return is_sealed(folder + "/" + name); });
+}
+
 SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials,
                        const std::string& run) {
   auto effective = options.effective();
@@ -83,10 +106,11 @@ SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vect
 void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks& marks,
                       const std::vector<StateGroup>& groups, bool sync) {
   const std::string newer = folder + "/" + checkpoint_names[0], older = folder + "/" + checkpoint_names[1],
-                    next = folder + "/checkpoint_next.h5";
+                    next = folder + "/" + checkpoint_next;
   {
     SharedFile file(comm, next, state_bytes(comm, groups));
     file.describe("/", [&](hid_t root) {
+      write_attribute(root, "format", format_of_checkpoints);
       write_attribute(root, "options", marks.options);
       write_attribute(root, "mesh_checksum", marks.mesh);
       write_attribute(root, "materials_checksum", marks.materials);
@@ -112,8 +136,14 @@ void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks
 
 Restart::Restart(MPI_Comm comm, const std::string& folder) : comm_(comm), folder_(folder) {
   on_root(comm, folder, [&] {
+    refuse_folders(folder);
     std::tie(path_, note_) = newest_checkpoint(folder);
     file_ = open_file(path_);
+    const std::string format = H5Aexists(file_, "format") > 0 ? read_text(file_, "format") : "1";
+    if (format != format_of_checkpoints)
+      throw UserError(
+          "-restart: '" + path_ + "' was written by slipscale " + read_text(file_, "version") +
+          " in a form that this version does not read; go on with that one, or start the run anew");
     mesh_ = read_text(file_, "mesh_checksum");
     materials_ = read_text(file_, "materials_checksum");
     run_ = read_text(file_, "run");

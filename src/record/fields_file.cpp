@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/files/continued_file.hpp"
 #include "slipscale/files/xdmf.hpp"
@@ -33,6 +34,14 @@ std::string group_of(std::size_t frame) {
   std::string path = frame_path(frame);
   path.pop_back();
   return path;
+}
+
+/// Of a frame, from that of its datasets.
+std::uint64_t with_time(std::uint64_t contents, double time) {
+  ContentChecksum sum;
+  sum.add(&contents, sizeof contents);
+  sum.add(&time, sizeof time);
+  return sum.value();
 }
 
 }  // namespace
@@ -79,7 +88,13 @@ FieldsFile::FieldsFile(MPI_Comm comm, MeshImage image, const std::string& folder
   if (frames) {
     times = file_->read_series(time, *frames);
     check_frames(*frames);
+    file_->examine([&](hid_t file) {
+      contents_.push_back(contents_of(file, "/mesh"));
+      for (std::size_t frame = 0; frame < *frames; ++frame)
+        contents_.push_back(with_time(contents_of(file, group_of(frame)), times[frame]));
+    });
   } else {
+    contents_.push_back(file_->take_contents());
     file_->add_series(time);
     file_->flush();
   }
@@ -102,6 +117,15 @@ void FieldsFile::check_frames(std::size_t frames) const {
     for (std::size_t frame = 0; frame < frames; ++frame)
       if (!has_path(file, group_of(frame))) throw LibraryError("it has no '" + group_of(frame) + "'");
     for (const std::size_t frame : {std::size_t{0}, frames - 1}) check_frame(file, group_of(frame));
+  });
+}
+
+void FieldsFile::expect(const std::vector<std::uint64_t>& contents) const {
+  file_->examine([&](hid_t) {
+    for (std::size_t k = 0; k < contents_.size(); ++k)
+      if (k >= contents.size() || contents[k] != contents_[k])
+        throw LibraryError((k == 0 ? "'/mesh'" : "'" + group_of(k - 1) + "' or its time") +
+                           " has other values than the run wrote");
   });
 }
 
@@ -164,6 +188,7 @@ void FieldsFile::write(double time, const double* u, const double* v, const doub
   if (quantities_.strain) write_strain(frame, strain);
   file_->append("/time", time);
   file_->flush();
+  contents_.push_back(with_time(file_->take_contents(), time));
   xdmf_->times->push_back(time);
   write_xdmf(comm_, xdmf_path_, *xdmf_);
 }

@@ -20,19 +20,30 @@ ForceRecord::ForceRecord(const SlidingBody& body, int boundary, long last_step) 
     return;
   }
   first_ = std::max(last_step / 2, last_step + 1 - most_steps);
-  sums_.assign(static_cast<std::size_t>(last_step + 1 - first_), 0);
+  sums_.assign(static_cast<std::size_t>(last_step + 1 - first_), {0, 0});
   const Boundary& found = *body.model().mesh.find_boundary(body.boundary_names()[boundary]);
   for (const int node : found.nodes) slots_.push_back(body.boundary_nodes().slot_of(node));
   tangent_ = directions_of(found).tangent;
 }
 
+/// What the rounding of a sum loses is found exactly (D. E. Knuth, The Art of Computer Programming 2, 4.2.2).
+void ForceRecord::add_term(Sum& sum, double term) {
+  const double total = sum[0] + term, share = total - sum[0];
+  sum[1] += (sum[0] - (total - share)) + (term - share);
+  sum[0] = total;
+}
+
+void ForceRecord::add_sums(void* from, void* to, int* count, MPI_Datatype*) {
+  for (int k = 0; k < *count; ++k)
+    for (const double part : static_cast<const Sum*>(from)[k]) add_term(static_cast<Sum*>(to)[k], part);
+}
+
 void ForceRecord::record(long n) {
-  double sum = 0;
+  Sum& sum = sums_[static_cast<std::size_t>(n - first_)];
   for (const int slot : slots_) {
     const Vector2 force = body_.force_on_support(slot);
-    sum += force[0] * tangent_[0] + force[1] * tangent_[1];
+    add_term(sum, force[0] * tangent_[0] + force[1] * tangent_[1]);
   }
-  sums_[static_cast<std::size_t>(n - first_)] = sum;
 }
 
 StateGroup ForceRecord::state(long n) {
@@ -49,12 +60,23 @@ StateGroup ForceRecord::state(long n) {
   return group;
 }
 
-void ForceRecord::resume() { std::copy(carried_.begin(), carried_.end(), sums_.begin()); }
+void ForceRecord::resume() {
+  std::ranges::transform(carried_, sums_.begin(), [](double sum) { return Sum{sum, 0}; });
+}
 
 std::vector<double> ForceRecord::gather() const {
-  std::vector<double> all(is_root(body_.comm()) ? sums_.size() : 0);
-  MPI_Reduce(sums_.data(), all.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM, 0, body_.comm());
-  return all;
+  std::vector<Sum> all(is_root(body_.comm()) ? sums_.size() : 0);
+  MPI_Datatype pair = MPI_DATATYPE_NULL;
+  MPI_Op add = MPI_OP_NULL;
+  MPI_Type_contiguous(2, MPI_DOUBLE, &pair);
+  MPI_Type_commit(&pair);
+  MPI_Op_create(add_sums, 1, &add);
+  MPI_Reduce(sums_.data(), all.data(), static_cast<int>(sums_.size()), pair, add, 0, body_.comm());
+  MPI_Op_free(&add);
+  MPI_Type_free(&pair);
+  std::vector<double> forces;
+  for (const Sum& sum : all) forces.push_back(sum[0] + sum[1]);
+  return forces;
 }
 
 }  // namespace slipscale

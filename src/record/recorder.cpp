@@ -19,7 +19,7 @@ namespace slipscale {
 namespace {
 
 /// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
-/// it.
+/// it, but where next to nothing flows in a body that is displaced far (see rounding_of_balance).
 constexpr double largest_sound_residual = 1e-6;
 
 /// The steps at which frames are due, ascending.
@@ -81,9 +81,9 @@ std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& 
   return of_cell;
 }
 
-/// About a thousand rows, or what the run before a restart made of that.
+/// About a thousand rows, or what the run before a restart made of that, whatever its end is now.
 long contact_cadence(const RunPosition& before, const TimeStep& time) {
-  return before.contact_every > 0 ? static_cast<long>(before.contact_every) : std::max(1L, time.count / 1000);
+  return before.contact_auto != 0 ? static_cast<long>(before.contact_every) : std::max(1L, time.count / 1000);
 }
 
 /// Whether the force of every step is kept beside rows that are sparser: from the start on, or not at all.
@@ -99,9 +99,9 @@ std::string new_run() {
 }
 
 std::vector<std::string> files_of_a_run() {
-  return {"run.yaml",  "summary.yaml", "history.h5",        "contact.h5",
-          "fields.h5", "fields.xdmf",  "statistics.h5",     "statistics.xdmf",
-          "fault.h5",  "fault.xdmf",   checkpoint_names[0], checkpoint_names[1]};
+  return {"run.yaml",          "summary.yaml",      "history.h5",      "contact.h5", "fields.h5",
+          "fields.xdmf",       "statistics.h5",     "statistics.xdmf", "fault.h5",   "fault.xdmf",
+          checkpoint_names[0], checkpoint_names[1], checkpoint_next};
 }
 
 /// Of each region, 1/Pa.
@@ -133,7 +133,7 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       probes_(body.comm(), body.model(), choice.points),
       keeps_force_(keeps_force(position_, history_every_, restart != nullptr)),
       force_(body, keeps_force_ ? observer_.measured() : -1, time.count),
-      folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run()),
+      folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run(), can_go_on),
       compliance_(compliances(body.model().materials)),
       progress_(choice.progress, restart ? static_cast<double>(restart->steps_done()) * time.step : 0,
                 static_cast<double>(time.count) * time.step),
@@ -186,14 +186,14 @@ void Recorder::after_step(long n) {
     const LogEvent::Scope scope(event);
     force_.add(n);
   }
-  if (due(n)) observe(n);
+  if (observes(n) != Observed::nothing) observe(n);
   static const LogEvent event("Progress");
   const LogEvent::Scope scope(event);
   progress_.step(n, static_cast<double>(n) * body_.time_step());
 }
 
 void Recorder::observe(long n) {
-  const bool row = n % history_every_ == 0 || n == last_, bulk = row || fields_due(n) || statistics_due(n);
+  const bool row = row_due(n), bulk = bulk_due(n);
   static const LogEvent observation("Observation"), writing("Writing");
   std::optional<LogEvent::Scope> scope(observation);
   Observation seen = observer_.observe(bulk);
@@ -211,7 +211,8 @@ void Recorder::observe(long n) {
   if (!bulk) return;
   last_sound_ = n;
   const double relative = seen.energy.flowed > 0 ? std::abs(seen.energy.residual) / seen.energy.flowed : 0;
-  largest_residual_ = std::max(largest_residual_, relative);
+  double& largest = relative > largest_sound_residual ? rounded_residual_ : largest_residual_;
+  largest = std::max(largest, relative);
   progress_.note(seen.friction, relative);
 }
 
@@ -240,6 +241,7 @@ void Recorder::check(const Observation& seen) const {
   const Energy& e = seen.energy;
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
   if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
+  if (finite && std::abs(e.residual) <= rounding_of_balance(body_)) return;
   const Astray why = explain(e, most_displaced(body_), time_, history_every_);
   stop(format("step {} (t = {:g} s): ", seen.step, seen.time) + why.fault, why.cure);
 }

@@ -1,4 +1,6 @@
 // The part of Recorder that says where a run stands, and goes on from there.
+#include <algorithm>
+
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/files/disk_space.hpp"
 #include "slipscale/record/recorder.hpp"
@@ -17,6 +19,7 @@ void Recorder::go_on(const Restart& restart) {
   last_sound_ = static_cast<long>(position_.last_sound);
   last_frame_ = static_cast<long>(position_.last_frame);
   largest_residual_ = position_.largest_residual;
+  rounded_residual_ = position_.rounded_residual;
   if (history_) rows_ = history_->rows_so_far();
   if (position_.history_every != static_cast<double>(history_every_))
     position_.even_from = position_.history_rows;
@@ -24,6 +27,28 @@ void Recorder::go_on(const Restart& restart) {
   if (history_) refusal = history_->series().refusal();
   if (contact_ && refusal.empty()) refusal = contact_->series().refusal();
   throw_together(body_.comm(), refusal);
+  check_contents(restart);
+}
+
+/// Whether the files still hold what the run wrote into them.
+void Recorder::check_contents(const Restart& restart) {
+  const bool root = is_root(body_.comm()), frames = fields_ && position_.frames > 0;
+  std::vector<StateGroup> groups{history_marks_.state(history_ ? history_->series().quantities() : 0, root)};
+  if (has_contact_)
+    groups.push_back(contact_marks_.state(contact_ ? contact_->series().quantities() : 0, root));
+  if (frames) groups.push_back(fields_marks_.state(root ? fields_->contents().size() : 0, root));
+  restart.read(groups);
+  std::string refusal;
+  if (history_) {
+    history_->series().expect(history_marks_.contents());
+    refusal = history_->series().refusal();
+  }
+  if (contact_ && refusal.empty()) {
+    contact_->series().expect(contact_marks_.contents());
+    refusal = contact_->series().refusal();
+  }
+  throw_together(body_.comm(), refusal);
+  if (frames) fields_->expect(fields_marks_.contents());
 }
 
 std::vector<StateGroup> Recorder::state(long n) {
@@ -34,6 +59,7 @@ std::vector<StateGroup> Recorder::state(long n) {
   at.set_time_step(time_);
   at.history_every = static_cast<double>(history_every_);
   at.contact_every = has_contact_ ? static_cast<double>(contact_every_) : 0;
+  at.contact_auto = has_contact_ && !choice_.contact.given() ? 1 : 0;
   at.fields_every = fields_every_ ? static_cast<double>(*fields_every_) : 0;
   if (window_) {
     at.window_first = static_cast<double>(window_->first);
@@ -50,11 +76,23 @@ std::vector<StateGroup> Recorder::state(long n) {
   at.last_sound = static_cast<double>(last_sound_);
   at.last_frame = static_cast<double>(last_frame_);
   at.largest_residual = largest_residual_;
+  at.rounded_residual = rounded_residual_;
   at.force_kept = keeps_force_ ? 1 : 0;
   RunPosition written = at;
   written.seconds = seconds();
   written_ = written;
-  std::vector<StateGroup> groups{written_.state(is_root(body_.comm()))};
+  const bool root = is_root(body_.comm());
+  const auto contents = [](const auto& file, double rows) {
+    return file ? file->series().contents(static_cast<hsize_t>(rows)) : std::vector<std::uint64_t>{};
+  };
+  std::vector<StateGroup> groups{written_.state(root),
+                                 history_marks_.state(contents(history_, at.history_rows), root)};
+  if (has_contact_) groups.push_back(contact_marks_.state(contents(contact_, at.contact_rows), root));
+  if (fields_) {
+    std::vector<std::uint64_t> frames = fields_->contents();
+    frames.resize(std::min(frames.size(), 1 + static_cast<std::size_t>(at.frames)));
+    groups.push_back(fields_marks_.state(frames, root));
+  }
   if (statistics_)
     for (StateGroup& group : statistics_->state()) groups.push_back(std::move(group));
   if (keeps_force_) groups.push_back(force_.state(n));

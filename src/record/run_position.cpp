@@ -28,6 +28,7 @@ StateGroup RunPosition::state(bool keeps) {
   add("steps", "1", "to the end of the run", count);
   add("history_every", "1", "steps between the rows of history.h5", history_every);
   add("contact_every", "1", "steps between the rows of contact.h5", contact_every);
+  add("contact_auto", "1", "1 when that number comes from `auto`", contact_auto);
   add("fields_every", "1", "steps between the frames of fields.h5", fields_every);
   add("statistics_first", "1", "first step of the window of the statistics", window_first);
   add("statistics_last", "1", "last step of it", window_last);
@@ -38,6 +39,7 @@ StateGroup RunPosition::state(bool keeps) {
   add("last_recorded_step", "1", "whose record was written", last_sound);
   add("last_frame_step", "1", "whose frame was written", last_frame);
   add("largest_residual", "1", "of the energy balance, of what flowed", largest_residual);
+  add("rounded_residual", "1", "of the energy balance in rows that rounding accounts for", rounded_residual);
   add("even_rows_from", "1", "row of history.h5 from which on rows are evenly spaced", even_from);
   add("force_kept", "1", "1 when /force_record is complete", force_kept);
   add("seconds", "s", "of the steps and their output", seconds);

@@ -50,7 +50,13 @@ std::string Recorder::forecast() const {
   if (fields_) bytes += fields_->bytes(frames);
   if (statistics_) bytes += statistics_->bytes();
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
-  return format("{} steps to {}, about {}, memory {}, output {} in '{}'\n", last_,
+  const std::string kept =
+      folder_.kept().empty()
+          ? ""
+          : format("the interrupted run that was in '{}' is kept: slide -restart {} goes on with it\n",
+                   folder_.path(), folder_.kept());
+  return kept +
+         format("{} steps to {}, about {}, memory {}, output {} in '{}'\n", last_,
                 engineering(static_cast<double>(last_) * time_.step, "s"), readable_duration(seconds),
                 readable_bytes(memory_of_all_ranks(body_.comm())), readable_bytes(bytes), folder_.path()) +
          cadences() + (statistics_ ? statistics_->forecast(time_.step) : "");
@@ -81,6 +87,8 @@ void Recorder::write_run(const Options& options) const {
         .number("block_height", mesh.upper[1] - mesh.lower[1], "m");
     yaml.number("largest_frequency", time_.frequency.sharp, "1/s, Lanczos");
     yaml.number("largest_frequency_bound", time_.frequency.safe, "1/s, largest element");
+    yaml.integer("history_every", history_every_, "steps between the rows");
+    if (has_contact_) yaml.integer("contact_every", contact_every_, "the same; what `auto` stands for");
     yaml.exact("stable_step", time_.limit, "s").exact("step", time_.step, "s").integer("steps", time_.count);
     for (std::size_t r = 0; r < model.materials.size(); ++r) {
       const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
@@ -121,6 +129,12 @@ std::string Recorder::summary(long steps, const std::string& why, const std::str
   const Momentum momentum = why.empty() ? body_.momentum() : Momentum{};
   std::vector<std::string> remarks = remarks_at_start(body_);
   for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
+  if (rounded_residual_ > 0)
+    remarks.push_back(format(
+        "rows in which the energy balance misses up to {:.2g} of what flowed are left out of the largest "
+        "residual: displacements change by little more than their last digit there; take a larger "
+        "-time_step, or start nearer to where the body goes",
+        rounded_residual_));
   std::string text;
   if (is_root(body_.comm()))
     text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, contact_every_, force,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "by_shape.hpp"
 #include "slipscale/solid/element.hpp"
 
 namespace slipscale {
@@ -16,10 +17,13 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// Of each local cell, 1/s²; infinite where it cannot be computed.
 std::vector<double> eigenvalues(const Mesh& mesh, const std::vector<Material>& materials) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(mesh.cells.size()));
+  ByShape<double> eigenvalue;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const Material& material = materials[mesh.cells.region[cell]];
-    const double value =
-        largest_element_eigenvalue(mesh.cells.corners_of(cell), material.stiffness, material.density);
+    const double value = eigenvalue.of(mesh, cell, [&](std::span<const Vector2> shape) {
+      return largest_element_eigenvalue(shape, material.stiffness, material.density);
+    });
     values.push_back(std::isfinite(value) ? value : unknown);  // a comparison would lose what is no number
   }
   return values;

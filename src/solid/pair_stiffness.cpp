@@ -11,6 +11,9 @@ namespace {
 
 constexpr int rows_of_a_chunk = 256;
 
+/// What waits for its neighbours is moved to the front only every so many times that it has filled the room.
+constexpr std::size_t rooms_for_what_passes = 3;
+
 /// A run that vector instructions take at one stroke.
 constexpr int long_run = 4;
 
@@ -18,9 +21,7 @@ constexpr int long_run = 4;
 double cost_of(int nodes) { return nodes < long_run ? 1.2 * nodes : 0.6 + 0.3 * nodes; }
 
 /// 1 for each owned node whose force is gathered: those of the chunks where this costs less.
-template <class Scalar>
-std::vector<char> choose_gathered(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
-                                  int owned) {
+std::vector<char> choose_gathered(const AssembledPairs& pairs, const RowTerms& rows, int owned) {
   std::vector<char> gathered(static_cast<std::size_t>(owned), 0);
   std::vector<Term> terms, before;
   for (int begin = 0; begin < pairs.rows(); begin += rows_of_a_chunk) {
@@ -59,17 +60,18 @@ PairStiffness<Scalar>::PairStiffness(const Mesh& mesh, const std::vector<Materia
       gather_runs_(gather_runs_with(kernel.instructions)),
       gather_quartets_(gather_quartets_with(kernel.instructions)) {
   const auto pairs = assemble_pairs<Scalar>(mesh, materials);
-  const RowTerms<Scalar> rows(pairs);
+  const RowTerms rows(pairs);
   lay_out(pairs, rows,
           kernel.runs ? choose_gathered(pairs, rows, owned_)
                       : std::vector<char>(static_cast<std::size_t>(owned_), 0));
 }
 
 template <class Scalar>
-void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
+void PairStiffness<Scalar>::lay_out(const AssembledPairs& pairs, const RowTerms& rows,
                                     const std::vector<char>& gathered) {
   TermLists lists;
   Quartets quartets(count_);
+  reserve(pairs, gathered);
   int touched = 0, seen = 0;
   for (int begin = 0; begin < pairs.rows(); begin += rows_of_a_chunk) {
     const int end = std::min(begin + rows_of_a_chunk, pairs.rows());
@@ -84,7 +86,9 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
       add_row(pairs, row, gathered);
       if (pairs.node[row] < owned_) seen = pairs.node[row] + 1;
     }
-    if (first < seen && gathered[first]) add_gathered(rows, first, seen, lists, quartets);
+    chunk.gathered_begin = chunk.gathered_end = seen;
+    if (first < seen && gathered[first]) chunk.gathered_begin = first;
+    if (chunk.gathered_begin < seen) add_gathered(rows, first, seen, lists, quartets);
     chunk.rows_end = static_cast<int>(rows_.size());
     chunk.runs_end = static_cast<int>(runs_.size());
     chunk.quartets_end = static_cast<int>(quartets_.size());
@@ -102,13 +106,26 @@ void PairStiffness<Scalar>::lay_out(const AssembledPairs<Scalar>& pairs, const R
   links_ = std::move(quartets.links);
   values_ = std::move(quartets.values);
   complete_in_order(pairs, gathered);
-  rows_.shrink_to_fit(), high_.shrink_to_fit(), blocks_.shrink_to_fit(), runs_.shrink_to_fit();
-  values_.shrink_to_fit();
+  skews_.shrink_to_fit(), runs_.shrink_to_fit(), quartets_.shrink_to_fit();
+  links_.shrink_to_fit(), values_.shrink_to_fit();
+}
+
+/// Makes room for what `add_row` keeps.
+template <class Scalar>
+void PairStiffness<Scalar>::reserve(const AssembledPairs& pairs, const std::vector<char>& gathered) {
+  std::size_t kept = 0, kept_rows = 1;
+  for (int row = 0; row < pairs.rows(); ++row) {
+    const auto before = kept;
+    for (int pair = pairs.first[row]; pair < pairs.first[row + 1]; ++pair)
+      kept += visited(pairs.node[row], gathered) || visited(pairs.high[pair], gathered);
+    kept_rows += kept > before || visited(pairs.node[row], gathered);
+  }
+  high_.reserve(kept), blocks_.reserve(kept), rows_.reserve(kept_rows);
 }
 
 /// The owned nodes of a chunk: in runs where these are long, else in quartets.
 template <class Scalar>
-void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists,
+void PairStiffness<Scalar>::add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists,
                                          Quartets& quartets) {
   gathered_ += end - begin;
   std::vector<Term> terms, next;
@@ -136,7 +153,7 @@ void PairStiffness<Scalar>::add_gathered(const RowTerms<Scalar>& rows, int begin
 /// The nodes of a stretch; where they are no multiple of four, with nodes beside it, whose forces are
 /// gathered a second time, to the same bits. `begin` and `end` are those of the chunk.
 template <class Scalar>
-void PairStiffness<Scalar>::add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end,
+void PairStiffness<Scalar>::add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end,
                                          TermLists& lists, Quartets& quartets) {
   std::array<std::vector<Term>, 4> terms;
   for (int node = stretch.begin; node < stretch.end; node += 4) {
@@ -159,25 +176,24 @@ void PairStiffness<Scalar>::add_quartets(const RowTerms<Scalar>& rows, const Run
 /// Keeps the pairs of which an end is visited. A row without pairs is kept where its node is visited: its
 /// force must be made zero.
 template <class Scalar>
-void PairStiffness<Scalar>::add_row(const AssembledPairs<Scalar>& pairs, int row,
-                                    const std::vector<char>& gathered) {
-  const auto visited = [&](int node) { return node < owned_ && !gathered[node]; };
+void PairStiffness<Scalar>::add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered) {
   const int node = pairs.node[row];
   const auto first = static_cast<int>(high_.size());
   for (int pair = pairs.first[row]; pair < pairs.first[row + 1]; ++pair) {
-    if (!visited(node) && !visited(pairs.high[pair])) continue;
+    if (!visited(node, gathered) && !visited(pairs.high[pair], gathered)) continue;
     const auto& block = pairs.block[pair];
     high_.push_back(pairs.high[pair]);
-    blocks_.push_back({block.xx, block.xy, block.yy});
+    blocks_.push_back(
+        {static_cast<Scalar>(block.xx), static_cast<Scalar>(block.xy), static_cast<Scalar>(block.yy)});
     if (block.skew != 0) skews_.push_back({static_cast<int>(rows_.size()), pairs.high[pair], block.skew});
   }
-  if (visited(node) || first < static_cast<int>(high_.size())) rows_.push_back({node, first});
+  if (visited(node, gathered) || first < static_cast<int>(high_.size())) rows_.push_back({node, first});
 }
 
 /// A node may move once nothing reads its displacement any more: its own row, and the rows of its neighbours
-/// that are gathered.
+/// that are gathered. Four at a time, so that those who move them read whole lines of the cache.
 template <class Scalar>
-void PairStiffness<Scalar>::complete_in_order(const AssembledPairs<Scalar>& pairs,
+void PairStiffness<Scalar>::complete_in_order(const AssembledPairs& pairs,
                                               const std::vector<char>& gathered) {
   std::vector<int> chunk_of(static_cast<std::size_t>(count_));
   for (int row = 0; row < pairs.rows(); ++row) chunk_of[pairs.node[row]] = row / rows_of_a_chunk;
@@ -194,8 +210,15 @@ void PairStiffness<Scalar>::complete_in_order(const AssembledPairs<Scalar>& pair
   for (int k = 0; k < static_cast<int>(chunks_.size()); ++k) {
     chunks_[k].complete_begin = complete;
     while (complete < owned_ && last_reader[complete] <= k) ++complete;
+    if (k + 1 < static_cast<int>(chunks_.size()))
+      complete = std::max(chunks_[k].complete_begin, complete / 4 * 4);
     chunks_[k].complete_end = complete;
   }
+  if (gathered_ < owned_) return;
+  for (const Chunk& chunk : chunks_)
+    passing_size_ =
+        std::max(passing_size_, static_cast<std::size_t>(chunk.gathered_end - chunk.complete_begin));
+  passing_size_ = rooms_for_what_passes * (passing_size_ + 4);
 }
 
 template class PairStiffness<double>;

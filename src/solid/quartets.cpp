@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <tuple>
 
 namespace slipscale {
@@ -35,18 +36,34 @@ std::vector<Place> merged(const std::array<std::vector<Term>, 4>& terms) {
   return places;
 }
 
-std::uint64_t digest(const std::vector<Link>& links, const std::vector<double>& values) {
-  std::uint64_t h = links.size();
-  const auto mix = [&](std::uint64_t x) { h = (std::rotl(h, 23) ^ x) * 0x9e3779b97f4a7c15ull; };
-  for (const Link& link : links)
-    mix(static_cast<std::uint64_t>(2 * static_cast<long>(link.offset) + link.turns));
-  for (const double value : values) mix(std::bit_cast<std::uint64_t>(value));
-  return h ^ (h >> 32);
-}
+class Digest {
+ public:
+  void add(std::uint64_t x) { h_ = (std::rotl(h_, 23) ^ x) * 0x9e3779b97f4a7c15ull; }
+  std::uint64_t value() const { return h_ ^ (h_ >> 32); }
 
-bool same(const Link& a, const Link& b) { return a.offset == b.offset && a.turns == b.turns; }
+ private:
+  std::uint64_t h_ = 1;
+};
+
+bool same(const Link& a, const Link& b) { return a.offset == b.offset && a.place == b.place; }
 
 }  // namespace
+
+/// Where these blocks stand in `values`, in fours; they are added where they do not.
+int Quartets::place(const std::vector<double>& blocks) {
+  Digest digest;
+  for (const double value : blocks) digest.add(std::bit_cast<std::uint64_t>(value));
+  const auto [found, is_new] = known_blocks_.try_emplace(digest.value());
+  int& place = found->second;
+  const auto stands = [&](std::size_t begin) {
+    return begin + blocks.size() <= values.size() &&
+           std::memcmp(&values[begin], blocks.data(), blocks.size() * sizeof(double)) == 0;
+  };
+  if (!is_new && stands(4 * static_cast<std::size_t>(place))) return place;
+  place = static_cast<int>(values.size() / 4);
+  values.insert(values.end(), blocks.begin(), blocks.end());
+  return place;
+}
 
 std::optional<Quartet> Quartets::make(int begin, const std::array<std::vector<Term>, 4>& terms) {
   const auto places = merged(terms);
@@ -54,33 +71,31 @@ std::optional<Quartet> Quartets::make(int begin, const std::array<std::vector<Te
     return begin + place.offset < 0 || begin + 3 + place.offset >= count_;
   };
   if (places.empty() || std::ranges::any_of(places, outside)) return std::nullopt;
-  std::vector<Link> own_links;
-  std::vector<double> own;
+  std::vector<Link> own;
+  std::vector<double> blocks;
   std::array<std::size_t, 4> next{};
+  Digest digest;
   for (const Place& place : places) {
-    own_links.push_back({static_cast<int>(place.offset), place.turns});
-    const auto base = own.size();
-    own.resize(base + (place.turns ? 4 : 12), 0);
+    blocks.assign(place.turns ? 4 : 12, 0);
     for (std::size_t node = 0; node < 4; ++node) {
       if (next[node] == terms[node].size() || place_of(terms[node][next[node]]) != place) continue;
       const Term& term = terms[node][next[node]++];
-      if (!place.turns) own[base + 2 * node] = term.straight[0], own[base + 2 * node + 1] = term.straight[1];
-      own[base + (place.turns ? 0 : 8) + node] = term.crossed[0];
+      if (!place.turns) blocks[2 * node] = term.straight[0], blocks[2 * node + 1] = term.straight[1];
+      blocks[(place.turns ? 0 : 8) + node] = term.crossed[0];
     }
+    const int stands = this->place(blocks);
+    own.push_back({static_cast<int>(place.offset), place.turns ? -1 - stands : stands});
+    digest.add(static_cast<std::uint64_t>(own.back().offset));
+    digest.add(static_cast<std::uint64_t>(own.back().place));
   }
-  const auto [found, is_new] = known_.try_emplace(digest(own_links, own));
+  const auto [found, is_new] = known_.try_emplace(digest.value());
   Kept& kept = found->second;
-  const bool known = !is_new &&
-                     std::equal(own_links.begin(), own_links.end(), links.begin() + kept.first,
-                                links.begin() + kept.last, same) &&
-                     std::equal(own.begin(), own.end(), values.begin() + kept.values);
-  if (!known) {
-    kept = {static_cast<int>(links.size()), static_cast<int>(links.size() + own_links.size()),
-            static_cast<long>(values.size())};
-    links.insert(links.end(), own_links.begin(), own_links.end());
-    values.insert(values.end(), own.begin(), own.end());
+  if (is_new ||
+      !std::equal(own.begin(), own.end(), links.begin() + kept.first, links.begin() + kept.last, same)) {
+    kept = {static_cast<int>(links.size()), static_cast<int>(links.size() + own.size())};
+    links.insert(links.end(), own.begin(), own.end());
   }
-  return Quartet{begin, kept.first, kept.last, kept.values};
+  return Quartet{begin, kept.first, kept.last};
 }
 
 }  // namespace slipscale

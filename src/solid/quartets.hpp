@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/solid/repeated_rows.hpp"
 
 namespace slipscale {
@@ -21,16 +22,18 @@ class Quartets {
   /// look beyond the arrays for a neighbour that only another has.
   std::optional<Quartet> make(int begin, const std::array<std::vector<Term>, 4>& terms);
 
-  std::vector<Link> links;
-  std::vector<double> values;
+  LargeArray<Link> links;
+  LargeArray<double> values;
 
  private:
+  int place(const std::vector<double>& blocks);
+
   int count_;
   struct Kept {
     int first, last;
-    long values;
   };
-  std::unordered_map<std::uint64_t, Kept> known_;
+  std::unordered_map<std::uint64_t, Kept> known_;        ///< lists of links, by their digest
+  std::unordered_map<std::uint64_t, int> known_blocks_;  ///< places, by the digest of what stands there
 };
 
 }  // namespace slipscale

@@ -6,8 +6,7 @@
 
 namespace slipscale {
 
-template <class Scalar>
-RowTerms<Scalar>::RowTerms(const AssembledPairs<Scalar>& pairs)
+RowTerms::RowTerms(const AssembledPairs& pairs)
     : pairs_(pairs), row_of_(pairs.node.size()), low_first_(pairs.node.size() + 1, 0) {
   for (const int high : pairs.high) ++low_first_[high + 1];
   std::partial_sum(low_first_.begin(), low_first_.end(), low_first_.begin());
@@ -24,8 +23,7 @@ RowTerms<Scalar>::RowTerms(const AssembledPairs<Scalar>& pairs)
   }
 }
 
-template <class Scalar>
-void RowTerms<Scalar>::of(int node, std::vector<Term>& terms) const {
+void RowTerms::of(int node, std::vector<Term>& terms) const {
   terms.clear();
   const auto straight = [&](const auto& block, int other) {
     terms.push_back({Lanes{block.xx, block.yy}, Lanes{block.xy, block.xy}, other - node});
@@ -38,7 +36,7 @@ void RowTerms<Scalar>::of(int node, std::vector<Term>& terms) const {
   const int begin = pairs_.first[row_of_[node]], end = pairs_.first[row_of_[node] + 1];
   for (int pair = begin; pair < end; ++pair) straight(pairs_.block[pair], pairs_.high[pair]);
   for (int pair = begin; pair < end; ++pair) {
-    const Scalar skew = pairs_.block[pair].skew;
+    const double skew = pairs_.block[pair].skew;
     if (skew != 0) terms.push_back({Lanes{}, Lanes{skew, -skew}, pairs_.high[pair] - node});
   }
 }
@@ -69,8 +67,5 @@ std::pair<int, int> TermLists::place(const std::vector<Term>& terms) {
   all_.insert(all_.end(), terms.begin(), terms.end());
   return found->second = {begin, static_cast<int>(all_.size())};
 }
-
-template class RowTerms<double>;
-template class RowTerms<float>;
 
 }  // namespace slipscale

@@ -12,16 +12,15 @@ namespace slipscale {
 /// The whole row of a node, as terms in the order in which the visit of all pairs adds to the force on it:
 /// those of lower neighbours, the skew part of each behind its symmetric part, then the symmetric parts of
 /// all higher neighbours, then their skew parts.
-template <class Scalar>
 class RowTerms {
  public:
-  explicit RowTerms(const AssembledPairs<Scalar>& pairs);
+  explicit RowTerms(const AssembledPairs& pairs);
 
   /// Of a local node, into `terms`.
   void of(int node, std::vector<Term>& terms) const;
 
  private:
-  const AssembledPairs<Scalar>& pairs_;
+  const AssembledPairs& pairs_;
   std::vector<int> row_of_;     ///< by local node
   std::vector<int> low_first_;  ///< by local node: where its pairs with lower nodes start in the next two
   std::vector<int> low_pair_, low_node_;

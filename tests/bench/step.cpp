@@ -1,6 +1,7 @@
 // What a time step costs on one core, against PETSc's matrix products with the same stiffness and node order:
 //   tests/bench/bench_step -nodes 4000,24000,145000 -repetitions 31 -shape triangles
 //   tests/bench/bench_step -mesh block.msh              (any mesh with curves `bottom` and `top`)
+//   tests/bench/bench_step -nodes 24000 -shape triangles -write block.msh    (the mesh, and nothing else)
 // Shapes: triangles or quadrilaterals of a grid, or general triangles, of which no two are alike. Region
 // `inclusion`, where a mesh has it, is three times as stiff.
 // The variants take turns within one run, and every figure is a median, so that a busy machine disturbs all
@@ -129,14 +130,18 @@ void measure(const Mesh& mesh, int repetitions) {
   std::fflush(stdout);
 }
 
-Mesh mesh_with(PetscInt nodes, const std::string& shape) {
+void write_mesh(PetscInt nodes, const std::string& shape, const std::string& path) {
   Block block;
   block.width = block.height = 5e-3;
   block.nx = block.ny = static_cast<int>(std::sqrt(static_cast<double>(nodes))) - 1;
   block.distortion = shape == "general" ? 0.2 : 0;
   block.shape = shape == "quadrilaterals" ? Shape::quadrilaterals : Shape::triangles;
-  const std::string path = scratch("bench.msh");
   write_block(block, path);
+}
+
+Mesh mesh_with(PetscInt nodes, const std::string& shape) {
+  const std::string path = scratch("bench.msh");
+  write_mesh(nodes, shape, path);
   Mesh mesh = read_mesh(PETSC_COMM_SELF, {path});
   std::remove(path.c_str());
   return mesh;
@@ -148,14 +153,17 @@ int main(int argc, char** argv) {
   petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
   PetscInt nodes[16] = {4000, 24000, 145000}, count = 16, repetitions = 31;
   PetscBool given = PETSC_FALSE;
-  char path[PETSC_MAX_PATH_LEN] = "", shape[64] = "general";
+  char path[PETSC_MAX_PATH_LEN] = "", out[PETSC_MAX_PATH_LEN] = "", shape[64] = "general";
+  PetscBool writes = PETSC_FALSE;
   petsc(PetscOptionsGetIntArray(nullptr, nullptr, "-nodes", nodes, &count, &given));
   if (!given) count = 3;
   petsc(PetscOptionsGetInt(nullptr, nullptr, "-repetitions", &repetitions, nullptr));
   petsc(PetscOptionsGetString(nullptr, nullptr, "-shape", shape, sizeof(shape), nullptr));
   petsc(PetscOptionsGetString(nullptr, nullptr, "-mesh", path, sizeof(path), &given));
+  petsc(PetscOptionsGetString(nullptr, nullptr, "-write", out, sizeof(out), &writes));
+  if (writes) write_mesh(nodes[0], shape, out);
   if (given) measure(read_mesh(PETSC_COMM_SELF, {path}), static_cast<int>(repetitions));
-  for (PetscInt k = 0; !given && k < count; ++k)
+  for (PetscInt k = 0; !given && !writes && k < count; ++k)
     measure(mesh_with(nodes[k], shape), static_cast<int>(repetitions));
   petsc(PetscFinalize());
   return 0;

@@ -71,3 +71,38 @@ TEST(Kernels, MakeTheSameStep) {
       }
   }
 }
+
+/// A step of which only the boundary is observed shows there what one of which everything is shows, to the
+/// bit, and the steps after it do not know.
+TEST(Kernels, ObserveTheBoundaryAlone) {
+  std::vector<Scene> scenes(4, scene_r());
+  for (Scene& scene : scenes) scene.initial.amplitude = 0.01, scene.initial.wavelength = 5e-3;
+  scenes[0].damping = {};
+  scenes[1].damping = {20, 1e-10};
+  scenes[2].beta2 = 0.6;
+  scenes[3].friction.by_slip_rate = true;
+  scenes[3].friction.length = 1e-6;
+  scenes[3].friction.rate_reference = 0.1;
+  Block block;
+  block.nx = block.ny = 37;
+  block.width = block.height = 5e-3;
+  block.shape = Shape::quadrilaterals;
+  const Mesh mesh = block_mesh(block);
+  const Model model(mesh, {scene_r_material()}, Model::Storage::full);
+  for (const Scene& scene : scenes) {
+    SlidingBody whole(PETSC_COMM_WORLD, model, scene, 5e-9), part(PETSC_COMM_WORLD, model, scene, 5e-9);
+    for (int n = 0; n < 60; ++n) {
+      whole.advance(Observed::everything);
+      part.advance(n % 7 == 3 ? Observed::boundary : Observed::nothing);
+      for (int k = 0; k < part.boundary_nodes().size(); ++k) {
+        const int i = part.boundary_nodes().node[k];
+        ASSERT_EQ(part.internal_force_n()[i], whole.internal_force_n()[i]);
+        if (n % 7 != 3) continue;
+        ASSERT_EQ(part.displacement_n()[i], whole.displacement_n()[i]);
+        ASSERT_EQ(part.velocity_n()[i], whole.velocity_n()[i]);
+      }
+    }
+    for (int i = 0; i < mesh.nodes.owned; ++i)
+      ASSERT_EQ(part.next_displacement()[i], whole.next_displacement()[i]);
+  }
+}

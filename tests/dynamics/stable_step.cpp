@@ -17,8 +17,8 @@ Eigen::Vector4d advance(const Eigen::Vector4d& state, double omega, double step,
   Vector2 u{state[0], 0}, w{state[1], 0}, a{state[2], 0};
   Vector2 damping_loss{}, coming{}, scheme_loss{};
   constexpr BulkPhysics everything{true, true, true, true};
-  FreeMotion(everything, Instructions::base, {&inverse_mass, &force, &previous, &u, &w, &a},
-             beta2_step(step, beta2), damping, {0, 0}, {&damping_loss, &coming, &scheme_loss}, {})(0, 1);
+  FreeMotion(everything, Instructions::base, {&inverse_mass, &previous, &u, &w, &a}, beta2_step(step, beta2),
+             damping, {0, 0}, {&damping_loss, &coming, &scheme_loss}, {})(0, 1, &force);
   return {u[0], w[0], a[0], state[0]};
 }
 

@@ -48,13 +48,13 @@ class AtRandom(Faults):
 
 class AtRandomOften(AtRandom):
     def test_alone(self):
-        self.check(moments=20, ranks=1, everybody=True)
+        self.check(moments=50, ranks=1, everybody=True)
 
     def test_one_of_two(self):
-        self.check(moments=20, ranks=2, everybody=False)
+        self.check(moments=25, ranks=2, everybody=False)
 
     def test_two_of_two(self):
-        self.check(moments=10, ranks=2, everybody=True)
+        self.check(moments=25, ranks=2, everybody=True)
 
 
 class Aimed(Faults):
@@ -71,17 +71,23 @@ class Aimed(Faults):
         numbers = list(range(1, len(calls) + 1))
         if len(numbers) > most:
             numbers = sorted(random.Random(SEED).sample(numbers, most))
-        torn = went_on = 0
+        torn = went_on = missed = 0
         for number in numbers:
             fault = {"half": 1} if half else {}
             code, err = self.run_job(scene, path=part, kill_at=number, **fault)
+            if code == 0:  # rows go to the disk by the clock: it made fewer calls than the run that counted them
+                missed += 1
+                self.check_left(self.folder / "out", whole)
+                shutil.rmtree(self.folder / "out")
+                continue
             self.assertEqual(code, -9, f"{part}, call {number} of {len(calls)}: {err}")
             with self.subTest(file=part, call=number, of=len(calls)):
                 torn += self.check_left(self.folder / "out", whole)
                 went_on += self.check_restart(whole)
             shutil.rmtree(self.folder / "out")
-        print(f"kills in calls that change {part}: {len(numbers)} of {len(calls)}, files made good {torn}, "
+        print(f"kills in calls that change {part}: {len(numbers) - missed} of {len(calls)}, files made good {torn}, "
               f"runs that went on {went_on}", flush=True)
+        self.assertLess(missed, max(2, len(numbers) / 2))
 
     def test_any(self):
         self.check("out/", most=12, half=True)

@@ -189,3 +189,45 @@ TEST(ContinuedSeries, WhatIsNoSuchFileIsRefused) {
   { const Hdf5File file(H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)); }
   EXPECT_NE(refused(other).find("cannot be continued: the attribute 'program': "), std::string::npos);
 }
+
+/// Read back in other pieces than it was written in, and told apart from anything else by its values alone.
+TEST(ContinuedSeries, KnowsWhatWasWritten) {
+  const std::string path = scratch("contents.h5");
+  std::vector<std::uint64_t> all, but_last;
+  {
+    Series series(path);
+    series.write(0, 40);
+    series.file.flush();
+    series.write(40, 60);
+    all = series.file.contents(60);
+    but_last = series.file.contents(59);
+    series.file.close();
+    EXPECT_EQ(series.file.contents(60), all);
+  }
+  ASSERT_EQ(all.size(), 3u);
+  // What goes on with it ends with the checksums of one that was not interrupted.
+  const std::string whole = written("whole.h5", 0);
+  Series longer(whole);
+  longer.write(0, 70);
+  {
+    Series series(path, Continue{60});
+    series.file.expect(all);
+    series.write(60, 70);
+    EXPECT_EQ(series.file.contents(70), longer.file.contents(70));
+    EXPECT_EQ(series.file.contents(69), longer.file.contents(69));
+  }
+  // What is left out is cut off at the end, so the shorter come later.
+  for (const auto& [rows, contents] : {std::pair{60, all}, {59, but_last}}) {
+    Series series(path, Continue{static_cast<hsize_t>(rows)});
+    series.file.expect(contents);
+    EXPECT_EQ(series.file.refusal(), "");
+    EXPECT_EQ(series.file.contents(rows), contents);
+  }
+  {
+    Series fewer(path, Continue{58});
+    fewer.file.expect(but_last);
+    EXPECT_NE(fewer.file.refusal().find("contents.h5' cannot be continued: '/time' has other values"),
+              std::string::npos)
+        << fewer.file.refusal();
+  }
+}

@@ -67,6 +67,50 @@ TEST(OutputFolder, LosesTheFilesOfAnOlderRunAndNothingElse) {
   });
 }
 
+/// One older run is kept, whole, and what is not of a run stays where it is.
+TEST(OutputFolder, KeepsAnOlderRunThatIsWorthIt) {
+  const std::string path = scratch("kept");
+  const std::vector<std::string> files{"run.yaml", "history.h5", "checkpoint.h5"};
+  const auto write = [&](const std::vector<std::string>& names, const std::string& text) {
+    on_first_rank([&] {
+      fs::create_directories(path);
+      for (const std::string& name : names) std::ofstream(path + "/" + name) << text;
+    });
+  };
+  const auto worth = [](const std::string& folder) { return fs::exists(folder + "/checkpoint.h5"); };
+  write({"run.yaml", "history.h5", "history.h5.journal", "checkpoint.h5", "notes.txt"}, "first");
+  { EXPECT_EQ(OutputFolder(PETSC_COMM_WORLD, path, files, worth).path(), path); }
+  on_first_rank([&] {
+    for (const char* name : {"run.yaml", "history.h5", "history.h5.journal", "checkpoint.h5"}) {
+      EXPECT_FALSE(fs::exists(path + "/" + name));
+      EXPECT_EQ(text_of(path + "/replaced/" + name), "first");
+    }
+    EXPECT_EQ(text_of(path + "/notes.txt"), "first");
+  });
+  write({"run.yaml", "history.h5"}, "second");  // not worth it
+  { EXPECT_EQ(OutputFolder(PETSC_COMM_WORLD, path, files, worth).kept(), ""); }
+  on_first_rank([&] {
+    EXPECT_FALSE(fs::exists(path + "/run.yaml"));
+    EXPECT_EQ(text_of(path + "/replaced/run.yaml"), "first");
+  });
+  write({"run.yaml", "checkpoint.h5"}, "third");
+  const OutputFolder folder(PETSC_COMM_WORLD, path, files, worth);
+  on_first_rank([&] {
+    EXPECT_EQ(folder.kept(), path + "/replaced");
+    EXPECT_EQ(text_of(path + "/replaced/run.yaml"), "third");
+    EXPECT_FALSE(fs::exists(path + "/replaced/history.h5"));
+    EXPECT_FALSE(fs::exists(path + "/replaced/history.h5.journal"));
+  });
+}
+
+TEST(OutputFolder, ThatHoldsAFolderInPlaceOfAFileIsRefused) {
+  const std::string path = scratch("folders");
+  on_first_rank([&] { fs::create_directories(path + "/checkpoint.h5"); });
+  const std::string failure =
+      failure_of<UserError>([&] { const OutputFolder folder(PETSC_COMM_WORLD, path, {"checkpoint.h5"}); });
+  EXPECT_EQ(failure.find("-output_folder '" + path + "' holds a folder named checkpoint.h5"), 0u) << failure;
+}
+
 TEST(OutputFolder, ThatCannotBeIsAUsersErrorOnAllRanks) {
   const std::string path = scratch("file");
   on_first_rank([&] { std::ofstream(path) << "a file"; });

@@ -46,7 +46,7 @@ def damage_lines(data, rng):
         section = lines[at:end]
         if rng.random() < 0.5:
             del lines[at:end]
-        k = rng.randrange(len(lines))
+        k = rng.randrange(len(lines) or 1)
         lines[k:k] = section if rng.random() < 0.7 else []
     return b"\n".join(lines)
 

@@ -189,6 +189,25 @@ def damaged_hdf5(chance, path):
                 return done
 
 
+def damaged_record(chance, path):
+    """Of a run that is to go on: any dataset or bytes. What matters then is whether its rows are still the same."""
+    if chance.random() < 0.5:
+        return raw(chance, path)
+    with h5py.File(path, "r+") as file:
+        names = []
+        file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) and not item.is_virtual
+                        else None)
+        while True:
+            done = chance.choice(DATASETS)(chance, file, chance.choice(names))
+            if done:
+                return Damage(done.text)
+
+
+def damaged_checkpoint(chance, path):
+    """Its seal tells; the older one is taken."""
+    return raw(chance, path)
+
+
 def damaged_yaml(chance, path):
     lines = path.read_text().split("\n")
     at = chance.randrange(len(lines))

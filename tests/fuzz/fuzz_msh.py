@@ -5,6 +5,8 @@
 READER is the executable `fuzz_read_meshes` of the build folder. The same seed and count give the same files. A mutant
 fails when the reader crashes, takes more than 10 s or more than ten times the file (and 20 MB) of memory, or says
 anything but that the mesh is read or refused in one sentence; failed ones are kept. Exit code 1 when there are any.
+
+`--seed 12 --seconds 900`, on two cores with thirty other processes: 8650 files, 528 read, 8122 refused, 0 failed.
 """
 
 import argparse

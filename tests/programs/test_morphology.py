@@ -20,6 +20,8 @@ SHAPES = {
     "square array": SQUARE,
     "hexagonal array": {**SQUARE, "arrangement": "hexagonal", "rows": 4},
     "laminate": LAYERS,
+    "strip of discs": {"microstructure_height": 2e-3},
+    "strip of fitted discs": {"microstructure_height": 2e-3, "cell": "grid", "size": 1e-4},
     "fitted discs": {"cell": "grid", "size": 1e-4},
     "fitted families": families(cell="grid", size=8e-5),
     "fitted laminate": {**LAYERS, "cell": "grid"},
@@ -97,6 +99,22 @@ class Results(Drawing):
         for name in ("matrix", "large", "small"):
             self.assertEqual(mesh.field_data[name][1], 2)
             self.assertGreater(np.count_nonzero(tags == mesh.field_data[name][0]), 10, name)
+
+    def test_a_strip_of_the_composite_it_is_cut_from(self):
+        """Above its end there is one region, which slide gives a material of its own; below it the same area."""
+        for cell in ("triangle", "quadrilateral", "grid"):
+            with self.subTest(cell):
+                self.draw(DISCS, microstructure_height=2e-3, cell=cell, size=1e-4)
+                report = self.report()
+                end = report["microstructure_end"]
+                self.assertAlmostEqual(end, 2e-3, delta=2e-4)
+                mesh = self.read_mesh()
+                (above,) = (tag for name, (tag, _) in mesh.field_data.items() if name == "homogenized")
+                lowest = min(mesh.points[cell, 1].mean() for block, tags in zip(mesh.cells,
+                                                                                mesh.cell_data["gmsh:physical"])
+                             if block.type in ("triangle", "quad") for cell, tag in zip(block.data, tags) if tag == above)
+                self.assertGreater(lowest, end - 1e-5)
+                self.assertAlmostEqual(sum(report["fraction"].values()), 1, places=12)
 
     def test_picture(self):
         self.draw(DISCS, block_width=8e-3)

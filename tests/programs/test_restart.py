@@ -120,7 +120,7 @@ class SameBytes(InBlock):
             subprocess.run(["pkill", "-9", "-f", f"{SLIDE} .*{self.folder.name}"], check=False)
             self.wait_for_lock()
             job = self.begin("-restart", self.folder / "out", ranks=ranks)
-        out, err = job.communicate(timeout=120)
+        out, err = job.communicate(timeout=400)
         self.assertEqual((job.returncode, err), (0, ""), out)
         self.assert_same("whole", "out")
 

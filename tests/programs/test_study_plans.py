@@ -6,7 +6,7 @@ import subprocess
 
 import studies
 
-STUDIES = ("accuracy", "contrast", "equivalence", "refinement", "relocalisation", "sweep")
+STUDIES = ("accuracy", "contrast", "equivalence", "refinement", "relocalisation", "stability", "strip", "sweep")
 
 
 class Plan(studies.StudyCase):

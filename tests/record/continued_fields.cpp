@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -145,4 +146,39 @@ TEST(ContinuedFields, LackingAQuantityAreRefused) {
   }
   const std::string said = failure_of<UserError>([&] { fields(mesh, folder.path(), 2); });
   EXPECT_NE(said.find("it has no '/frames/00000/principal_high'"), std::string::npos) << said;
+}
+
+/// The checksums of the frames as they are written are those of the frames as they are read.
+TEST(ContinuedFields, KnowWhatWasWritten) {
+  for (const auto& [name, block] : analytic::cases()) {
+    SCOPED_TRACE(name);
+    const std::string mesh_file = scratch("block.msh");
+    testing_support::write_block(block, mesh_file);
+    const Mesh mesh = mesh_of(mesh_file);
+    const OutputFolder folder(world, scratch("contents"));
+    std::vector<std::uint64_t> contents;
+    {
+      FieldsFile file = fields(mesh, folder.path());
+      write(file, mesh, 0, 4);
+      contents = file.contents();
+      file.close();
+    }
+    if (is_root(world)) {
+      ASSERT_EQ(contents.size(), 5u);
+      std::ranges::sort(contents);
+      EXPECT_EQ(std::ranges::adjacent_find(contents), contents.end());
+    }
+    FieldsFile file = fields(mesh, folder.path(), 4);
+    std::vector<std::uint64_t> known = file.contents();
+    file.expect(known);
+    std::vector<std::uint64_t> sorted = known;
+    std::ranges::sort(sorted);
+    if (is_root(world)) {
+      EXPECT_EQ(sorted, contents);
+      ++known[2];
+    }
+    const std::string text = failure_of<UserError>([&] { file.expect(known); });
+    EXPECT_NE(text.find("'/frames/00001' or its time has other values than the run wrote"), std::string::npos)
+        << text;
+  }
 }

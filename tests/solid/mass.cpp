@@ -97,6 +97,9 @@ TEST(CriticalCell, IsTheFirstOfTheStiffestCells) {
   EXPECT_NEAR(found.of_median, 0.5, 0.005);
   EXPECT_NEAR(found.of_median_in_region, 1, 0.01);
   EXPECT_EQ(found.of_median, alone.of_median);
-  const auto corners = whole.cells.corners_of(static_cast<int>(found.number));
-  EXPECT_EQ(largest_element_eigenvalue(corners, stiff.stiffness, stiff.density), found.eigenvalue);
+  const int cell = static_cast<int>(found.number);
+  const auto shape = whole.shape_of(cell);
+  const std::size_t corners = whole.cells.nodes_of(cell).size();
+  EXPECT_EQ(largest_element_eigenvalue({shape.data(), corners}, stiff.stiffness, stiff.density),
+            found.eigenvalue);
 }

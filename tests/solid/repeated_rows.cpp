@@ -182,3 +182,26 @@ TEST(EdgeRounding, MakesEqualCellsEqual) {
     for (int cell = 0; cell < mesh.cells.size(); ++cell) EXPECT_EQ(mesh.shape_of(cell), first) << cell;
   }
 }
+
+/// Where every force is gathered, the same forces come by in passing.
+TEST(RepeatedRows, HandOverForcesInPassing) {
+  for (const GridBody& body : grid_bodies()) {
+    SCOPED_TRACE(body.what);
+    const Mesh mesh = block_mesh(body.block, Partitioner::metis, body.refine);
+    auto u = rough_field(mesh.nodes);
+    const auto expected = product<double>(mesh, {});
+    const PairStiffness<double> stiffness(mesh, two_materials());
+    ASSERT_EQ(stiffness.passing_size() > 0, stiffness.gathered() == mesh.nodes.owned);
+    if (stiffness.passing_size() == 0) continue;
+    LargeArray<Vector2> passing(stiffness.passing_size());
+    for (int go = 0; go < 2; ++go) {  // what a sweep leaves behind disturbs no other
+      int next = 0;
+      stiffness.multiply_passing(u.data(), passing, [&](int begin, int end, const Vector2* force) {
+        EXPECT_EQ(begin, next);
+        for (int i = begin; i < end; ++i) ASSERT_EQ(force[i], expected[i]) << i;
+        next = end;
+      });
+      EXPECT_EQ(next, mesh.nodes.owned);
+    }
+  }
+}

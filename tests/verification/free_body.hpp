@@ -40,9 +40,10 @@ class FreeBody {
     const StepCoefficients step = first_ ? first_step(time_step_, 0.5) : beta2_step(time_step_, 0.5);
     first_ = false;
     u_.end_update();
-    const BulkArrays arrays{inverse_mass_.data(), force_.data(), nullptr, u_.data(), w_.data(), nullptr};
+    const BulkArrays arrays{inverse_mass_.data(), nullptr, u_.data(), w_.data(), nullptr};
     const FreeMotion move(BulkPhysics{}, model_.kernel.instructions, arrays, step, {}, {0, 0}, {}, {});
-    std::get<PairStiffness<double>>(model_.stiffness).multiply(u_.data(), force_.data(), move);
+    std::get<PairStiffness<double>>(model_.stiffness)
+        .multiply(u_.data(), force_.data(), [&](int begin, int end) { move(begin, end, force_.data()); });
     u_.begin_update();
   }
 

@@ -26,7 +26,6 @@ struct LossWeights {
 /// What the free motion of a node needs; arrays by local node.
 struct BulkArrays {
   const double* inverse_mass;     ///< m/kg
-  const Vector2* force;           ///< K u_n, N/m
   const Vector2* previous_force;  ///< K u_{n−1}, N/m; read only where the physics needs it
   Vector2* displacement;          ///< u, m
   Vector2* predictor;             ///< w, m/s
@@ -54,7 +53,8 @@ struct FreeMotionState {
 
 /// Free motion of nodes over one step: predictor, acceleration from the internal force and the damping,
 /// velocity, displacement; and the losses of the bulk. Called for every run of owned nodes as soon as their
-/// internal force is complete; several nodes are moved at a time, to the same bits.
+/// internal force, K u_n in N/m by local node, is complete; several nodes are moved at a time, to the same
+/// bits.
 class FreeMotion {
  public:
   FreeMotion(const BulkPhysics& physics, Instructions instructions, const BulkArrays& arrays,
@@ -65,14 +65,36 @@ class FreeMotion {
                                                      damping.mass,  losses,
                                                      weights} {}
 
-  void operator()(int begin, int end) const { move_(state_, begin, end); }
+  void operator()(int begin, int end, const Vector2* force) const { move_(state_, begin, end, force); }
+
+  /// Asks for what the motion of these nodes needs and nothing before it touches.
+  void prepare(int begin, int end) const {
+    constexpr int nodes_of_a_line = 4;
+    for (int i = begin; i < end; i += nodes_of_a_line) {
+      __builtin_prefetch(state_.arrays.predictor + i, 1);
+      if (i % (2 * nodes_of_a_line) == 0) __builtin_prefetch(state_.arrays.inverse_mass + i);
+    }
+  }
 
  private:
-  using Move = void (*)(const FreeMotionState&, int begin, int end);
+  using Move = void (*)(const FreeMotionState&, int begin, int end, const Vector2* force);
   static Move moving(const BulkPhysics& physics, Instructions instructions);
 
   const Move move_;
   const FreeMotionState state_;
 };
+
+/// What is seen of nodes once they have moved, [nodes] from the first of them on; rows of vectors as pairs of
+/// numbers.
+struct SeenNodes {
+  const double *predictor, *acceleration;  ///< w_{n+1}, m/s; a_n, m/s²
+  const double *displacement, *force;      ///< u_n, m; K u_n, N/m
+  const double* mass;                      ///< kg/m
+  double* velocity;                        ///< v_n, m/s: made
+  double *kinetic, *correction, *strain;  ///< ½vᵀMv, (Δt²β2/4) aᵀMa, ½uᵀKu of each node, J/m: made
+};
+
+/// `back`: v_n = w_{n+1} − back a_n, s; `weight`: Δt²β2/4, s².
+void see(const SeenNodes& nodes, int count, double back, double weight, Instructions instructions);
 
 }  // namespace slipscale

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
@@ -123,10 +124,10 @@ class EnergyLedger {
  private:
   double beta2_, time_step_;
   BulkPhysics physics_;
-  NodalWork loads_, supports_;                      ///< by slot
-  NodalWork drive_, heat_, impact_;                 ///< by contact node
-  NodalWork plates_;                                ///< by side, on the rank that answers for it
-  std::vector<Vector2> damping_, coming_, scheme_;  ///< by owned node, see BulkLosses
+  NodalWork loads_, supports_;                     ///< by slot
+  NodalWork drive_, heat_, impact_;                ///< by contact node
+  NodalWork plates_;                               ///< by side, on the rank that answers for it
+  LargeArray<Vector2> damping_, coming_, scheme_;  ///< by owned node, see BulkLosses
   mutable std::vector<double> bulk_done_;  ///< their sums by node; kept so that a row allocates little
   std::vector<double> plates_scheme_;      ///< by side
   double past_travel_ = 0;

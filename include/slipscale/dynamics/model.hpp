@@ -3,6 +3,7 @@
 #include <variant>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/solid/eigenvalue_bound.hpp"
 #include "slipscale/solid/material.hpp"
@@ -39,7 +40,7 @@ class NodalVector {
   NodalVector(const NodalVector&) = delete;
   NodalVector& operator=(const NodalVector&) = delete;
 
-  Vector2* data() const { return array_; }
+  Vector2* data() const { return const_cast<Vector2*>(array_.data()); }
   Vec vec() const { return vec_; }
   /// The halo exchange: sends the owned values to the ranks that hold them as ghosts. `end` without `begin`
   /// does nothing.
@@ -47,9 +48,9 @@ class NodalVector {
   void end_update();
 
  private:
+  LargeArray<Vector2> array_;
   OwnedVec vec_;
   Vec local_ = nullptr;
-  Vector2* array_ = nullptr;
   bool updating_ = false;
 };
 

@@ -25,6 +25,13 @@ struct Momentum {
   double angular = 0;  ///< about the middle of the block, counter-clockwise, kg m/s
 };
 
+/// What is looked at of a step once it is made.
+enum class Observed {
+  nothing,
+  boundary,   ///< u_n and v_n at the boundary nodes
+  everything  ///< u_n, v_n, a_n, K u_n and the energies of the whole body
+};
+
 /// A deformable body that moves in explicit time, pressed on a rigid surface that slides under it.
 ///
 /// `advance` goes from t_n to t_{n+1}. Afterwards u is u_{n+1} while all forces, tractions and works are
@@ -34,9 +41,10 @@ class SlidingBody {
   /// Throws UserError for contradictory conditions and a body that starts below the surface. Collective.
   SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, double time_step);
 
-  /// One step; `observed` as above. One halo exchange, no allocation, and no other communication but for one
+  /// One step. One halo exchange, no allocation, and no other communication but for one
   /// small gather for each side that is kept straight.
-  void advance(bool observed);
+  void advance(Observed observed);
+  void advance(bool observed) { advance(observed ? Observed::everything : Observed::nothing); }
 
   long steps_done() const { return step_; }
   double time_step() const { return time_step_; }
@@ -52,7 +60,8 @@ class SlidingBody {
   const Vector2* velocity_n() const { return v_.data(); }         ///< v_n, owned nodes, m/s
   const Vector2* acceleration_n() const { return a_.data(); }     ///< a_n, owned nodes, m/s²
   // Of every step:
-  const Vector2* internal_force_n() const { return force_.data(); }  ///< K u_n, owned nodes, N/m
+  /// K u_n, N/m; at the boundary nodes, and of an observed step at all owned nodes.
+  const Vector2* internal_force_n() const { return force_.data(); }
   /// u_{n+1}, m; owned nodes only: the exchange that brings the ghosts is under way until the next step.
   const Vector2* next_displacement() const { return u_.data(); }
   const Vector2* next_predictor() const { return w_.data(); }        ///< w_{n+1}, owned nodes, m/s
@@ -83,16 +92,19 @@ class SlidingBody {
   bool has_touched() const;
 
  private:
-  void free_motion(const StepCoefficients& step, const BulkPhysics& physics);
-  void remember(bool observed, const NodalState& moving);
+  void free_motion(const StepCoefficients& step, Observed observed);
+  void free_acceleration_at_boundary();
+  void remember(Observed observed, const NodalState& moving);
   void touch_surface(bool first, const StepCoefficients& step, const NodalState& moving);
   void add_to_ledger(bool first, const StepCoefficients& step, const NodalState& moving);
-  void find_velocity(const StepCoefficients& step);
+  void observe_nodes(const StepCoefficients& step, int begin, int end);
+  void observe_boundary(const StepCoefficients& step, Observed observed);
 
   void start_force();
   void set_contact_nodes();
   double gravity_work(int node, const Vector2& displacement) const;
   using BulkTerms = std::array<std::span<const double>, 4>;
+  std::size_t moving_things() const;
   BulkTerms bulk_terms() const;
   std::int64_t largest_count() const;
   NodalState state(bool with_acceleration) const;
@@ -102,8 +114,10 @@ class SlidingBody {
   const Scene scene_;
   const double time_step_;
   NodalVector u_, w_, v_, a_;
-  std::vector<Vector2> force_, previous_force_, kept_;
-  std::vector<double> inverse_mass_;
+  LargeArray<Vector2> force_, previous_force_, kept_;
+  LargeArray<Vector2>
+      passing_;  ///< forces that only the free motion of their node asks for, see PairStiffness
+  LargeArray<double> inverse_mass_;
   const std::vector<std::string> boundary_names_;
   BoundaryNodes boundary_;
   Loads loads_;
@@ -114,15 +128,16 @@ class SlidingBody {
   FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
   BulkPhysics physics_;
   EnergyLedger ledger_;
-  double start_gravity_ = 0;           ///< Σ m g·u_0 of all ranks, J/m
-  double start_energy_ = 0;            ///< Ê at t = 0 of all ranks, J/m
-  mutable std::vector<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
+  double start_gravity_ = 0;          ///< Σ m g·u_0 of all ranks, J/m
+  double start_energy_ = 0;           ///< Ê at t = 0 of all ranks, J/m
+  mutable LargeArray<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
   long step_ = 0;
   /// The run as a whole, for a checkpoint.
   struct Carried {
     double steps, surface_travel, start_gravity, start_energy, touched;
   } carried_{};
+  std::vector<Vector2> carried_force_;  ///< K u_n at the boundary nodes, where the bulk does not need it
 };
 
 }  // namespace slipscale

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/files/hdf5.hpp"
 
 namespace slipscale {
@@ -29,6 +31,16 @@ Hdf5Dataset expect_dataset(hid_t file, const std::string& path, hid_t type, cons
 /// The same of real numbers, with these values.
 void expect_values(hid_t file, const std::string& path, const std::vector<hsize_t>& shape,
                    const std::string& units, const double* values);
+
+/// A checksum of all datasets in a group, their paths, shapes and values, and of what views show; as
+/// `SharedFile::take_contents`.
+std::uint64_t contents_of(hid_t file, const std::string& group);
+
+/// The same of a view: its shape, and which columns of which datasets it shows.
+std::uint64_t contents_of_view(hid_t view, const std::string& path);
+
+/// Begins the checksum of a dataset, for its values to be added.
+ContentChecksum content_begun(const std::string& path, const std::vector<hsize_t>& shape);
 
 /// A dataset of at least `rows` rows that may grow. `row_shape`: of one row ({} a number).
 Hdf5Dataset expect_series(hid_t file, const std::string& path, hid_t type,

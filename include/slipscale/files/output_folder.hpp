@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,22 +28,30 @@ void refuse_unwritable(MPI_Comm comm, const std::string& folder);
 /// The folder of one run, and of one only: while this object lives another run is kept out of it.
 class OutputFolder {
  public:
+  /// Whether the older run in a folder, which nobody writes to now, is worth more than its files' room.
+  using WorthKeeping = std::function<bool(const std::string& folder)>;
+
   /// Creates it and the folders above it, and removes the files of an older run that this one will write,
-  /// `replaced`, and nothing else. Throws `UserError` on all ranks when the folder cannot be created or
-  /// written to, or belongs to a run that goes on. Collective.
-  OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced = {});
+  /// `replaced`, and nothing else; when they are worth keeping (asked on rank 0) they go into the folder
+  /// `replaced` below it, in place of what that held of an earlier one. Throws `UserError` on all ranks when
+  /// the folder cannot be created or written to, holds a folder by the name of a file, or belongs to a run
+  /// that goes on. Collective.
+  OutputFolder(MPI_Comm comm, const std::string& folder, const std::vector<std::string>& replaced = {},
+               const WorthKeeping& worth_keeping = {});
   ~OutputFolder();
   OutputFolder(OutputFolder&&) noexcept;
 
   const std::string& path() const { return path_; }
   std::string path(const std::string& file) const { return path_ + "/" + file; }
+  /// Where the older run is kept; empty when there is none.
+  const std::string& kept() const { return kept_; }
 
   /// Replaces a text file as a whole; rank 0 writes, `RunError` on all ranks when it cannot. Collective.
   void write_text(const std::string& file, const std::string& text) const;
 
  private:
   MPI_Comm comm_;
-  std::string path_;
+  std::string path_, kept_;
   std::unique_ptr<FolderLock> lock_;  ///< on rank 0
 };
 

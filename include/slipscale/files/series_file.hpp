@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slipscale/base/content_checksum.hpp"
 #include "slipscale/files/disk_space.hpp"
 #include "slipscale/files/hdf5.hpp"
 
@@ -69,12 +70,19 @@ class SeriesFile {
   /// is a fault.
   std::vector<double> read(int id);
 
+  /// What tells whether the rows of each quantity are still those that were written; of the first `rows`,
+  /// which are all or all but the last. Of a continued file once `expect` has read it.
+  std::vector<std::uint64_t> contents(hsize_t rows) const;
+  /// Of a continued file: reads it wholly, and refuses it unless its rows have these checksums.
+  void expect(const std::vector<std::uint64_t>& contents);
+
   /// Predicted size after so many rows, bytes.
   double bytes(double rows) const;
   /// One sentence on what went wrong; empty as long as all is well.
   const std::string& fault() const { return fault_; }
   /// One sentence on why the file cannot be continued; empty as long as it can.
   const std::string& refusal() const { return refusal_; }
+  std::size_t quantities() const { return columns_.size(); }
   hsize_t rows() const { return rows_; }                ///< complete ones, in memory and on disk
   std::size_t row_bytes() const { return row_bytes_; }  ///< of all quantities together
 
@@ -86,7 +94,9 @@ class SeriesFile {
     std::size_t bytes;  ///< of one row
     std::size_t chunk;  ///< bytes
     Hdf5Dataset dataset;
-    std::vector<std::byte> batch;  ///< rows not yet on disk
+    std::vector<std::byte> batch;      ///< rows not yet on disk
+    ContentChecksum content{};         ///< of all rows
+    std::uint64_t content_before = 0;  ///< of all but the last
   };
   struct Constant {
     std::string path;
@@ -103,6 +113,7 @@ class SeriesFile {
   void checked(Action action);
   void open_column(Column& column, const std::string& units);
   std::vector<double> read_written(const Column& column) const;
+  void read_content(Column& column) const;
   void append_bytes(int id, const void* row, Storage storage);
   std::string reserve_for(hsize_t& rows);
   void reserve(hsize_t rows);

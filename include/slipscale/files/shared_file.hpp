@@ -2,8 +2,10 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipscale/files/file_order.hpp"
@@ -79,6 +81,10 @@ class SharedFile {
   void add_series(const DatasetDescription& about);
   void append(const std::string& series, double value);
 
+  /// On rank 0 a checksum of the datasets written since the last call, paths and contents, free of their
+  /// order.
+  std::uint64_t take_contents() { return std::exchange(contents_, 0); }
+
   /// A dataset without data of its own: columns of others as entries of a larger row (HDF5's virtual
   /// dataset). For readers that want tensors where we keep less.
   void write_view(const DatasetDescription& about, const DatasetView& view);
@@ -118,6 +124,7 @@ class SharedFile {
   std::string path_;
   Appearance appearance_;
   Hdf5File file_;  ///< on rank 0
+  std::uint64_t contents_ = 0;
   bool published_ = false, finished_ = false;
 };
 

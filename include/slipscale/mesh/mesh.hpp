@@ -87,13 +87,12 @@ struct PartitionReport {
   PetscInt edge_cut = 0;  ///< edges between cells of different owners
 };
 
-/// A partitioned plane mesh: the DMPlex of its cells and vertices, and what the numerics read of it in plain
-/// arrays.
+/// A partitioned plane mesh in plain arrays.
 ///
 /// The order of nodes and cells belongs to the whole mesh and is fixed before it is partitioned, so that sums
 /// taken in that order give the same bits on any number of ranks. Every cell around an owned node is local.
 struct Mesh {
-  OwnedDM dm;
+  MPI_Comm comm = MPI_COMM_NULL;  ///< of the ranks that share it
   Nodes nodes;
   Cells cells;
   std::vector<Region> regions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "slipscale/morphology/composite_mesh.hpp"
@@ -9,6 +10,15 @@
 #include "slipscale/morphology/quality.hpp"
 
 namespace slipscale {
+
+/// The microstructure ends at a height above which the block is one homogeneous region.
+struct Strip {
+  double end = 0;    ///< m
+  int row = 0;       ///< of a grid, whose cells begin there
+  int whole = 0;     ///< inclusions that reach across the end
+  int left_out = 0;  ///< that would have been cut by it
+  int above = 0;     ///< that would have lain above it
+};
 
 /// A composite, drawn and meshed.
 struct Composed {
@@ -31,6 +41,7 @@ struct Composed {
   /// Inclusions moved by less than the recipe's reach, drawn anew elsewhere, or dropped, because of bad
   /// cells.
   int moved = 0, redrawn = 0, dropped = 0;
+  std::optional<Strip> strip;
 };
 
 /// Cells that the recipe will have at least, nearly; 0 for pictures, which tell it themselves.

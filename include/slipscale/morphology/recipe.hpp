@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,7 @@ struct Recipe {
   MeshChoice mesh;
   double repair = 0;       ///< inclusions may be moved by less than this to mend bad cells, m
   std::uint64_t seed = 0;  ///< of random placement
+  std::optional<double> microstructure_height;  ///< above it the block is one homogeneous region, m
 };
 
 Schema recipe_schema();

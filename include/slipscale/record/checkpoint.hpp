@@ -18,6 +18,11 @@ namespace slipscale {
 /// Files of one run's folder from which another process can go on with it: checkpoint.h5, and
 /// checkpoint_older.h5 before it, should the newer be damaged.
 inline constexpr const char* checkpoint_names[] = {"checkpoint.h5", "checkpoint_older.h5"};
+/// Until a checkpoint is whole.
+inline constexpr const char* checkpoint_next = "checkpoint_next.h5";
+
+/// Whether the folder holds a run that ended before its time and could go on. On the calling rank.
+bool can_go_on(const std::string& folder);
 
 /// What a checkpoint says of the scene, so that none goes on with another.
 struct SceneMarks {

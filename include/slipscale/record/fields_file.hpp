@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,11 @@ class FieldsFile {
 
   std::size_t frames() const;  ///< so far
 
+  /// On rank 0, what tells whether the mesh, then each frame is still what was written. Of a continued file
+  /// they are read from it, wholly, to be compared by `expect`, which throws as the constructor. Collective.
+  const std::vector<std::uint64_t>& contents() const { return contents_; }
+  void expect(const std::vector<std::uint64_t>& contents) const;
+
   /// A text about the file, an attribute of its root group; what is continued must have it. Throws as the
   /// constructor. Collective.
   void about(const std::string& name, const std::string& text);
@@ -85,7 +91,8 @@ class FieldsFile {
   std::unique_ptr<SharedFile> file_;
   std::string xdmf_path_;
   std::unique_ptr<XdmfDocument> xdmf_;
-  bool to_cut_ = false;  ///< there may be frames behind those that count
+  std::vector<std::uint64_t> contents_;  ///< [1 + frames] on rank 0
+  bool to_cut_ = false;                  ///< there may be frames behind those that count
 };
 
 /// Predicted size of fields.h5 after `frames` frames, bytes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@ namespace slipscale {
 
 /// The tangential force at one boundary on every step of the last part of a run, up to 2^17 steps: what tells
 /// whether the rows of history.h5 were too sparse. Each rank sums over its own nodes and keeps the sum, so a
-/// step costs no reduction; the ranks' sums are added when the run is over, in whatever order.
+/// step costs no reduction; the ranks' sums are added when the run is over. They are kept with twice the
+/// digits of a double, of which the last does not show where the mesh was cut.
 class ForceRecord {
  public:
   /// `boundary`: index into SlidingBody::boundary_names; −1 records nothing.
@@ -35,7 +37,13 @@ class ForceRecord {
   std::vector<int> slots_;
   Vector2 tangent_{};
   long first_;
-  std::vector<double> sums_, carried_;
+  using Sum =
+      std::array<double, 2>;  ///< the sum is that of both, the second below the last digit of the first
+  static void add_term(Sum& sum, double term);
+  static void add_sums(void* from, void* to, int* count, MPI_Datatype*);
+
+  std::vector<Sum> sums_;
+  std::vector<double> carried_;
 };
 
 }  // namespace slipscale

@@ -9,6 +9,7 @@
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/files/progress.hpp"
 #include "slipscale/record/checkpoint.hpp"
+#include "slipscale/record/content_marks.hpp"
 #include "slipscale/record/fields_file.hpp"
 #include "slipscale/record/force_record.hpp"
 #include "slipscale/record/history.hpp"
@@ -27,9 +28,10 @@ class Recorder {
   Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time,
            const Restart* restart = nullptr);
 
-  /// Whether step n is to be observed.
-  bool due(long n) const {
-    return n % history_every_ == 0 || n == last_ || contact_due(n) || fields_due(n) || statistics_due(n);
+  /// What of step n is to be observed: rows of contact ask for no more than the boundary.
+  Observed observes(long n) const {
+    if (bulk_due(n)) return Observed::everything;
+    return contact_due(n) ? Observed::boundary : Observed::nothing;
   }
   /// After the step t_n → t_{n+1} was made: writes what is due, shows progress. Throws RunError when the
   /// state is no longer finite, when energy appears from nowhere, or when the disk is full or the folder
@@ -57,12 +59,15 @@ class Recorder {
   const TimeStep& time() const { return time_; }
 
  private:
+  bool row_due(long n) const { return n % history_every_ == 0 || n == last_; }
+  bool bulk_due(long n) const { return row_due(n) || fields_due(n) || statistics_due(n); }
   bool contact_due(long n) const { return has_contact_ && (n % contact_every_ == 0 || n == last_); }
   bool fields_due(long n) const;
   bool statistics_due(long n) const { return window_ && window_->due(n); }
   double rows(long every) const { return static_cast<double>((last_ + every - 1) / every + 1); }
   void open_files(const Restart* restart);
   void go_on(const Restart& restart);
+  void check_contents(const Restart& restart);
   void close_files();
   std::string summary(long steps, const std::string& why, const std::string& command);
   double seconds() const;  ///< of the steps and their output so far
@@ -78,6 +83,8 @@ class Recorder {
   const std::string run_;
   RunPosition position_;  ///< at the restart; of a new run all zero
   RunPosition written_;   ///< as the last checkpoint has it
+  ContentMarks history_marks_{"history_contents"}, contact_marks_{"contact_contents"},
+      fields_marks_{"fields_contents"};
   const TimeStep time_;
   const long last_, history_every_;
   const bool has_contact_;
@@ -101,6 +108,7 @@ class Recorder {
   std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
   long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written
   double largest_residual_ = 0;             ///< relative to what flowed
+  double rounded_residual_ = 0;             ///< of rows of which rounding makes more than counts as sound
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -19,9 +19,11 @@ struct RunPosition {
   double history_rows = 0, contact_rows = 0, frames = 0;       ///< of the files
   double last_sound = -1, last_frame = -1;                     ///< steps
   double largest_residual = 0;                                 ///< relative to what flowed
-  double even_from = 0;   ///< first row of history.h5 from which on rows are as far apart as now
-  double force_kept = 0;  ///< 1 when the force of every step is among the rest, from the start on
-  double seconds = 0;     ///< s, that the steps so far and their output took
+  double rounded_residual = 0;                                 ///< of rows that are rounding
+  double contact_auto = 0;  ///< 1 when contact_every is what `auto` made of the first end
+  double even_from = 0;     ///< first row of history.h5 from which on rows are as far apart as now
+  double force_kept = 0;    ///< 1 when the force of every step is among the rest, from the start on
+  double seconds = 0;       ///< s, that the steps so far and their output took
 
   TimeStep time_step() const;
   void set_time_step(const TimeStep& time);

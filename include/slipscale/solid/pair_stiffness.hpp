@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "slipscale/base/large_array.hpp"
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/solid/lanes.hpp"
 #include "slipscale/solid/material.hpp"
@@ -15,9 +17,7 @@ struct StiffnessKernel {
   Instructions instructions = widest_instructions();
 };
 
-template <class Scalar>
 struct AssembledPairs;
-template <class Scalar>
 class RowTerms;
 class TermLists;
 class Quartets;
@@ -36,7 +36,8 @@ class Quartets;
 /// the blocks in registers, each node's parts in the order in which the visit of the pairs would add them: to
 /// the same bits. Whether a chunk of rows is gathered or visited depends on what repeats in it.
 ///
-/// `Scalar` is what the blocks are stored in; all arithmetic is in double precision.
+/// `Scalar` is what the symmetric parts are stored in; all arithmetic is in double precision. The skew parts
+/// of a row cancel around its node, which is what makes the whole symmetric: they stay in double precision.
 template <class Scalar>
 class PairStiffness {
  public:
@@ -46,13 +47,22 @@ class PairStiffness {
   /// force = K displacement, N/m, at the owned nodes; what it leaves at ghosts is meaningless. Both arrays
   /// hold all local nodes. `complete(begin, end)` is called for runs of owned nodes, in ascending order and
   /// each node once, as soon as their force is complete; from then on nothing reads their displacement, which
-  /// may be advanced at once, while all of it is still in the cache.
+  /// may be advanced at once, while all of it is still in the cache. Some time before,
+  /// `complete.prepare(begin, end)` is called, where there is such.
   template <class Complete>
   void multiply(Vector2* displacement, Vector2* force, Complete&& complete) const;
 
   void multiply(Vector2* displacement, Vector2* force) const {
     multiply(displacement, force, [](int, int) {});
   }
+
+  /// The same where every force is gathered: only those of some successive nodes are there at a time, in
+  /// `passing` of `passing_size()` entries, and go no further than the cache. `complete(begin, end, force)`
+  /// finds that of node i at force[i].
+  template <class Complete>
+  void multiply_passing(Vector2* displacement, LargeArray<Vector2>& passing, Complete&& complete) const;
+  /// Zero where some forces are not gathered but made by visits.
+  std::size_t passing_size() const { return passing_size_; }
 
   int gathered() const { return gathered_; }    ///< owned nodes whose force is gathered
   int repeating() const { return repeating_; }  ///< of these, the ones in runs
@@ -71,7 +81,7 @@ class PairStiffness {
   /// Skew part of K_ij with i the node of lower number: +value in xy, −value in yx.
   struct Skew {
     int row, high;
-    Scalar value;
+    double value;
   };
   struct Row {
     int node;   ///< local node, the lower of its pairs
@@ -82,32 +92,38 @@ class PairStiffness {
   struct Chunk {
     int rows_begin = 0, rows_end = 0, skews_begin = 0, runs_begin = 0, runs_end = 0;
     int quartets_begin = 0, quartets_end = 0;
+    int gathered_begin = 0, gathered_end = 0;  ///< its owned nodes, where they are gathered
     int zero_begin = 0, zero_end = 0;          ///< owned nodes that its visits are the first to add to
     int complete_begin = 0, complete_end = 0;  ///< owned nodes whose force is complete after it
   };
 
-  void lay_out(const AssembledPairs<Scalar>& pairs, const RowTerms<Scalar>& rows,
-               const std::vector<char>& gathered);
-  void add_gathered(const RowTerms<Scalar>& rows, int begin, int end, TermLists& lists, Quartets& quartets);
-  void add_quartets(const RowTerms<Scalar>& rows, const Run& stretch, int begin, int end, TermLists& lists,
+  void lay_out(const AssembledPairs& pairs, const RowTerms& rows, const std::vector<char>& gathered);
+  void add_gathered(const RowTerms& rows, int begin, int end, TermLists& lists, Quartets& quartets);
+  void add_quartets(const RowTerms& rows, const Run& stretch, int begin, int end, TermLists& lists,
                     Quartets& quartets);
-  void add_row(const AssembledPairs<Scalar>& pairs, int row, const std::vector<char>& gathered);
-  void complete_in_order(const AssembledPairs<Scalar>& pairs, const std::vector<char>& gathered);
+  bool visited(int node, const std::vector<char>& gathered) const { return node < owned_ && !gathered[node]; }
+  void reserve(const AssembledPairs& pairs, const std::vector<char>& gathered);
+  void add_row(const AssembledPairs& pairs, int row, const std::vector<char>& gathered);
+  void complete_in_order(const AssembledPairs& pairs, const std::vector<char>& gathered);
   void visit(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
+  void gather(const Chunk& chunk, const Vector2* displacement, Vector2* force) const;
+  template <class Complete>
+  void prepare(const Chunk& chunk, Complete& complete) const;
 
   int owned_ = 0, count_ = 0;
   int repeating_ = 0, gathered_ = 0;
+  std::size_t passing_size_ = 0;
   GatherRuns gather_runs_;
   GatherQuartets gather_quartets_;
-  std::vector<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
-  std::vector<int> high_;
-  std::vector<Block> blocks_;
+  LargeArray<Row> rows_;  ///< ascending whole-mesh number of the node; a last row closes the list
+  LargeArray<int> high_;
+  LargeArray<Block> blocks_;
   std::vector<Skew> skews_;  ///< in the order of the pairs; a last one of no row closes the list
-  std::vector<Run> runs_;    ///< ascending, none across two chunks
+  LargeArray<Run> runs_;     ///< none across two chunks
   std::vector<Term> terms_;
-  std::vector<Quartet> quartets_;  ///< likewise
-  std::vector<Link> links_;
-  std::vector<double> values_;
+  LargeArray<Quartet> quartets_;
+  LargeArray<Link> links_;
+  LargeArray<double> values_;
   std::vector<Chunk> chunks_;
 };
 
@@ -116,13 +132,45 @@ template <class Complete>
 void PairStiffness<Scalar>::multiply(Vector2* displacement, Vector2* force, Complete&& complete) const {
   for (int ghost = owned_; ghost < count_; ++ghost) force[ghost] = {0, 0};
   for (const Chunk& chunk : chunks_) {
+    prepare(chunk, complete);
     if (chunk.rows_begin < chunk.rows_end) visit(chunk, displacement, force);
-    gather_runs_(runs_.data() + chunk.runs_begin, runs_.data() + chunk.runs_end, terms_.data(), displacement,
-                 force);
-    gather_quartets_(quartets_.data() + chunk.quartets_begin, quartets_.data() + chunk.quartets_end,
-                     links_.data(), values_.data(), displacement, force);
+    gather(chunk, displacement, force);
     if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end);
   }
+}
+
+template <class Scalar>
+template <class Complete>
+void PairStiffness<Scalar>::multiply_passing(Vector2* displacement, LargeArray<Vector2>& passing,
+                                             Complete&& complete) const {
+  long first = 0;  // the node whose force is at the front
+  for (const Chunk& chunk : chunks_) {
+    if (chunk.gathered_end - first > static_cast<long>(passing.size())) {
+      const long front = chunk.complete_begin / 4 * 4;  // as the arrays by node lie in the cache
+      std::copy(passing.data() + (front - first), passing.data() + (chunk.gathered_begin - first),
+                passing.data());
+      first = front;
+    }
+    Vector2* const force = passing.data() - first;
+    prepare(chunk, complete);
+    gather(chunk, displacement, force);
+    if (chunk.complete_begin < chunk.complete_end) complete(chunk.complete_begin, chunk.complete_end, force);
+  }
+}
+
+template <class Scalar>
+template <class Complete>
+void PairStiffness<Scalar>::prepare(const Chunk& chunk, Complete& complete) const {
+  if constexpr (requires { complete.prepare(0, 0); })
+    complete.prepare(chunk.complete_begin, chunk.complete_end);
+}
+
+template <class Scalar>
+void PairStiffness<Scalar>::gather(const Chunk& chunk, const Vector2* displacement, Vector2* force) const {
+  gather_runs_(runs_.data() + chunk.runs_begin, runs_.data() + chunk.runs_end, terms_.data(), displacement,
+               force);
+  gather_quartets_(quartets_.data() + chunk.quartets_begin, quartets_.data() + chunk.quartets_end,
+                   links_.data(), values_.data(), displacement, force);
 }
 
 template <class Scalar>

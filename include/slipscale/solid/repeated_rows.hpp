@@ -23,10 +23,14 @@ struct Run {
   int first, last;  ///< terms, in the order in which they are added
 };
 
-/// A distance at which nodes of a quartet have neighbours.
+/// A distance at which nodes of a quartet have neighbours, and the blocks there of the four. The same blocks
+/// are kept once for all quartets: beside an interface most are those of the grid, which so stay in the
+/// cache.
 struct Link {
   int offset;  ///< nodes
-  int turns;   ///< 1 for the skew part of the blocks, 0 for the symmetric part
+  /// Where the blocks start, in fours of values: of the symmetric part 4 × (xx, yy), then 4 × xy. Below zero
+  /// for the skew part, 4 × xy at −1 − place.
+  int place;
 };
 
 /// Four successive nodes that have their neighbours at the same distances or nearly so, each with blocks of
@@ -34,9 +38,6 @@ struct Link {
 struct Quartet {
   int begin;        ///< node
   int first, last;  ///< links, in the order in which their parts are added
-  /// Where its values start. For a link of the symmetric parts 4 × (xx, yy), then 4 × xy; of the skew parts 4
-  /// × xy.
-  long values;
 };
 
 /// force = Σ K_ij (u_j − u_i) at the nodes of the runs, N/m. A node's terms are added one after the other, as

@@ -28,7 +28,8 @@ def row(size, element="triangle", solver="default", rtol=1e-10, repeat=1, **more
 
 
 ROWS = [row(128), row(16, memory=BASE), row(64), row(64, repeat=2), row(64, rtol=1e-2), row(64, rtol=1e-4),
-        row(128, solver="direct"), row(64, "quadrilateral"), row(256, status="failed", seconds=None)]
+        row(128, solver="direct"), row(64, "quadrilateral"), row(64, "grid"),
+        row(256, status="failed", seconds=None)]
 
 
 class Curves(unittest.TestCase):
@@ -84,6 +85,7 @@ class Picture(unittest.TestCase):
         legends = [[text.get_text() for text in panel.get_legend().get_texts()] for panel in axes]
         self.assertIn("triangles, multigrid: exponent 1.00", legends[1])
         self.assertIn("triangles, multigrid: exponent 1.50", legends[2])
+        self.assertIn("fitted grid, multigrid", legends[1])
         self.assertIn("64 across, solver tolerance 1e-02 to 1e-10", legends[0])
 
     def test_one_sentence_when_every_run_failed(self):

@@ -60,6 +60,10 @@ class Report(unittest.TestCase):
         self.assertIn("<summary>before: scene r", text)
         self.assertIn("**after: scene r", text)
 
+    def test_several_families(self):
+        table = [{**row, "family": {"good": "squares", "bad": "discs"}[row["variant"]]} for row in rows()]
+        self.assertIn("meshes squares and discs, element", report(self.through_a_file(table)))
+
     def test_the_step_alone(self):
         table = [{**row, "along": "step", "size": 1e-4, "reference_h": 2e-5 * REFERENCE} for row in rows()]
         text = report(self.through_a_file(table))

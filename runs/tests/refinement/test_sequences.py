@@ -40,6 +40,15 @@ class Spelling(unittest.TestCase):
         self.assertEqual([(each.name, each.variant) for each in found], [("a", "x"), ("a", "y"), ("b", "coulomb")])
         self.assertEqual([run["variant"] for run in found[1].runs], ["y", "y"])
 
+    def test_every_family_by_itself(self):
+        both = {**BASE, "family": ["squares", "discs"], "size": [2, 1], "step": 1}
+        found = chains([both])
+        self.assertEqual([(each.variant, each.runs[0]["family"], each.runs[0]["variant"]) for each in found],
+                         [("squares", "squares", "coulomb"), ("discs", "discs", "coulomb")])
+        self.assertEqual([each.reference["family"] for each in found], ["squares", "discs"])
+        self.assertEqual([each.variant for each in chains([{**both, "variants": ["x", "y"]}])],
+                         ["squares-x", "squares-y", "discs-x", "discs-y"])
+
     def test_another_reference(self):
         chain = one(size=[2, 1], step_per_size=0.1, reference={"size": 0.5, "family": "other"})
         self.assertEqual(chain.reference, {"scene": "r", "family": "other", "variant": "coulomb", "size": 0.5,
