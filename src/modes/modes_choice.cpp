@@ -56,7 +56,9 @@ Schema modes_schema() {
        {},
        "besides, the eigenvalues of the time scheme at the scene's step, which is what slide shows"},
       {"modes_coefficient", Kind::text, "1", absent, range::any,
-       "first:step:last, a sweep of the coefficient of friction, which every mode is followed along"},
+       "first:step:last, a sweep of the coefficient of friction, which every mode is followed along; the "
+       "nodes that "
+       "touch stay those of the scene's own values, as in the other sweeps"},
       {"modes_time", Kind::text, "s", absent, range::any,
        "first:step:last, a sweep of the relaxation time T of regularized friction"},
       {"modes_load_speed", Kind::text, "m/s", absent, range::any,
