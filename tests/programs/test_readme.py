@@ -59,6 +59,7 @@ class OtherPages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
+        (Path(cls.temporary.name) / ".snakemake").mkdir()  # two that start at once would both make it
         cls.place = Place(cls.temporary.name)
         cls.place.fill()
 
