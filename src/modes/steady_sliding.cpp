@@ -181,6 +181,13 @@ Scene read_sliding_scene(const Options& options, const Mesh& mesh) {
     throw UserError(
         "-friction_law none leaves nothing that could feed a mode; give coulomb or regularized, with "
         "-friction_coefficient 0 for the modes without friction");
+  // The damping acts on the nodes alone, and the mass that vibrates would be another than the damped one.
+  if (scene.damping.mass != 0)
+    for (const BoundaryCondition& condition : scene.conditions)
+      if (condition.plate_mass != 0)
+        throw UserError("-boundary_" + condition.boundary +
+                        "_mass gives the plate a mass that -damping_mass does not damp, which modes cannot "
+                        "take into account; leave out one of them, or damp with -damping_stiffness");
   return scene;
 }
 

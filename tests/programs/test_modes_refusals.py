@@ -29,6 +29,10 @@ MISTAKES = {
     "pulled off": Mistake(["nothing of boundary 'bottom' touches"], {"initial_gap": 2e-6}),
     "held by nothing": Mistake(["no steady state", "along x", "-boundary_<boundary>_x fixed"],
                                {"boundary_top_x": None}),
+    "plate that the damping leaves out": Mistake(
+        ["-boundary_top_mass", "-damping_mass does not damp", "leave out one of them"],
+        {"boundary_top_y": "rigid", "boundary_top_ramp": None, "boundary_top_force": 7e4, "boundary_top_mass": 1.0,
+         "damping_mass": 1e3}),
     "no highest frequency": Mistake(["-modes_to ", "needed here but not given"], {"modes_to": None}),
     "more modes than unknowns": Mistake(["-modes_count is 1000", "free components", "at most"],
                                         {"modes_count": 1000}),
