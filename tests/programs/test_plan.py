@@ -62,6 +62,9 @@ class Plan(unittest.TestCase):
         # Other wishes are answered from the same pilots.
         self.plan("--want", "friction:5%", "--sizes", "0.5e-3")
         self.assertEqual({file: before[file] for file in before}, {file: self.pilots()[file] for file in before})
+        # Of another block they are run again.
+        self.plan("--want", "friction:5%", "--sizes", "0.5e-3", "-block_height", "4.5e-3")
+        self.assertFalse([file for file, end in before.items() if self.pilots()[file] == end])
 
     def test_a_trajectory(self):
         said, found = self.plan("--want", "trajectory_displacement:2%", "--before", "10e-6", "30e-6", "-time_end", "30e-6",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-PER_NODE = 11e-9  # s of a step and node, P1 or Q1, in cache; before anything was run
+PER_NODE = 7e-9  # s of a step and node, in cache (tests/bench/README.md); before anything was run
 PER_STEP = 1.5e-6  # s of a step, whatever the mesh
 START = 0.2  # s
 HISTORY_ROW, CONTACT_ROW = 400, 68  # B of a row of history.h5, and of one of contact.h5 for each contact node

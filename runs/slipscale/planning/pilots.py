@@ -23,6 +23,7 @@ DRAWN = ("inclusions", "moved", "redrawn", "dropped")
 RUNS = Path(__file__).resolve().parents[2]
 SIZES, OTHER_SIZES, OTHER_SEEDS = 4, 3, 3
 FEW_STEPS = 50
+MOST_HALVINGS = 7  # of the area of a cell, until a mesh shows what is drawn
 STEPS = (0.5, 0.25)  # parts of the scene's own safety, on the coarsest mesh
 
 
@@ -164,10 +165,18 @@ class Workshop:
         return found
 
 
+def newer(mesh, outcome):
+    """Whether a mesh was drawn after a run ended: the run was that of another one."""
+    drawn = Path(mesh).parent / "outcome.yaml"
+    return drawn.is_file() and drawn.stat().st_mtime_ns > outcome.stat().st_mtime_ns
+
+
 def started(options, folder):
-    """The outcome of `slide` with these options: of the same command before, or by a process that measures it alone."""
+    """The outcome of `slide` with these options: of the same command on the same mesh before, or by a process that
+    measures it alone."""
     command = [str(programs.program("slide")), *shlex.split(words(options))]
-    if known := Trials.outcome(folder, command):
+    known = Trials.outcome(folder, command)
+    if known and not newer(options["mesh_file"], folder / "outcome.yaml"):
         return known
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run([sys.executable, "-m", "slipscale.running.attempt", str(folder / "outcome.yaml"), "--", *command],
@@ -180,13 +189,31 @@ def sizes_from(coarsest, count):
     return [coarsest * RATIO**k for k in range(count)]
 
 
-def coarsest_for(workshop, most, top):
-    """The coarsest of the sizes so that all first pilots cost at most `most` s: `top`, m, or finer. A pair with their
-    price. One mesh of the largest size is drawn: nodes grow as 1/h², steps as 1/h."""
+def plain(mesh):
+    """Whether the mesh is there and shows what was drawn, nothing moved or left out."""
+    return not mesh.reason and not any(mesh.drawn[1:])
+
+
+def coarsest_drawn(workshop, top):
+    """(size m, meshes by kind of cells): the coarsest size up to `top` at which the first kind shows the drawing as it
+    is; the other kinds as they come."""
     case = workshop.case
-    drawn = {cell: mesh for cell in case.cells if not (mesh := workshop.mesh(cell, top)).reason}
+    for k in range(MOST_HALVINGS):
+        size = top * RATIO**k
+        if plain(workshop.mesh(case.cells[0], size)):
+            break
+    drawn = {cell: mesh for cell in case.cells if not (mesh := workshop.mesh(cell, size)).reason}
     if not drawn:
-        raise Mistake(f"no mesh of {1e6 * top:.4g} µm can be drawn: {workshop.mesh(case.cells[0], top).reason}")
+        raise Mistake(f"no mesh of {1e6 * size:.4g} µm can be drawn: {workshop.mesh(case.cells[0], size).reason}")
+    return size, drawn
+
+
+def coarsest_for(workshop, most, top, most_at_all):
+    """The coarsest of the sizes so that all first pilots cost at most `most` s: `top`, m, or finer. A pair with their
+    price. Meshes of the largest size are drawn: nodes grow as 1/h², steps as 1/h. Where that is more than `most_at_all`,
+    only the first kind of cells stays in the case."""
+    case = workshop.case
+    top, drawn = coarsest_drawn(workshop, top)
     for kind, mesh in drawn.items():
         workshop.calibrate(kind, mesh)
     cell, mesh = next(iter(drawn.items()))
@@ -200,6 +227,8 @@ def coarsest_for(workshop, most, top):
             total += parts * workshop.price(nodes, steps)
         return total
 
+    if price(top) > most_at_all and len(case.cells) > 1:
+        case.cells = case.cells[:1]
     chosen = top
     while price(chosen * RATIO) <= most:
         chosen *= RATIO

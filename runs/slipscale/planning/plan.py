@@ -75,7 +75,7 @@ class Planning:
                 raise Refused(reason)
             coarsest = given
         else:
-            coarsest, price = pilots.coarsest_for(self.workshop, min(FIRST, most), top)
+            coarsest, price = pilots.coarsest_for(self.workshop, min(FIRST, most), top, most)
             if reason := refusals.of_memory(case, price, most, top):
                 raise Refused(reason)
             if price > most:
@@ -87,14 +87,9 @@ class Planning:
 
     def run(self, wanted):
         """Runs pilots and keeps them with what they gave."""
-        price = sum(pilot.cost for pilot in wanted)
-        self.announced += price
+        self.announced += sum(pilot.cost for pilot in wanted)
         self.workshop.longest_step = self.workshop.longest_step or max(pilot.step for pilot in wanted)
-        self.say(f"{len(wanted)} pilot runs, about {price:.2g} s of one core: " +
-                 ", ".join(f"{pilot.cell} {1e6 * pilot.h:.0f} µm" for pilot in wanted if pilot.role == "size") +
-                 "".join(f"; {count} {what}" for what, role in
-                         (("with shorter steps", "step"), ("of other morphologies", "morphology"))
-                         if (count := sum(pilot.role == role for pilot in wanted))))
+        self.say(announcement(wanted))
         for pilot in self.workshop.run_all(wanted, self.say):
             if pilot.ok:
                 self.pilots.append(results.measured(pilot, self.wishes, self.case))
@@ -179,8 +174,12 @@ class Planning:
         return pilot if allowed and wanted else None
 
     def work(self):
-        """All of it. Raises Refused."""
-        self.run(self.prepare())
+        """All of it, or with --dry-run what the pilots take. Raises Refused."""
+        first = self.prepare()
+        if self.asked.dry_run:
+            print("\n".join([announcement(first), *(f"left out: {what}" for what in self.left_out)]))
+            return
+        self.run(first)
         for _ in range(MOST_TIERS):
             try:
                 self.judge()
@@ -198,6 +197,15 @@ class Planning:
             raise refused
         if not self.best:
             raise Refused(answer.out_of_reach(self))
+
+
+def announcement(wanted):
+    """How many pilots there are, of which sizes, and what they will take."""
+    price = sum(pilot.cost for pilot in wanted)
+    sizes = ", ".join(f"{pilot.cell} {1e6 * pilot.h:.0f} µm" for pilot in wanted if pilot.role == "size")
+    others = [f"{count} {what}" for what, role in (("with shorter steps", "step"), ("of other morphologies", "morphology"))
+              if (count := sum(pilot.role == role for pilot in wanted))]
+    return f"{len(wanted)} pilot runs, about {price:.2g} s of one core: {'; '.join([sizes, *others])}"
 
 
 def with_changes(scene, recipe, changes, manuals):
@@ -223,6 +231,7 @@ def parsed(words):
     parser.add_argument("--sizes", type=float, metavar="SIZE", help="of the coarsest pilot mesh, m (default: by its price)")
     parser.add_argument("--pilots", default="1min", help="what all pilot runs may take while the proposal is short")
     parser.add_argument("--jobs", type=int, default=1, help="pilot runs at a time")
+    parser.add_argument("--dry-run", action="store_true", help="only draw the pilot meshes and say what their runs take")
     parser.add_argument("--quiet", action="store_true", help="only the answer")
     changes, left = paired(words)
     asked = parser.parse_args(left)
@@ -252,5 +261,6 @@ def main(arguments=None):
         answer.write_refusal(planning, str(reason))
         print(f"refused: {reason}.")
         return 1
-    print(answer.write(planning, time.monotonic() - begun))
+    if not asked.dry_run:
+        print(answer.write(planning, time.monotonic() - begun))
     return 0
