@@ -9,6 +9,7 @@
 #include "slipscale/dynamics/sliding_body.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/checkpoints.hpp"
+#include "slipscale/record/hints.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -120,7 +121,9 @@ void slide(Options& options) {
     restart->read(body.state());
     body.resume();
   }
+  print(describe_memory(body));
   print_notes(remarks_at_start(body));
+  if (!restart) print_notes(hints_at_start(body, step, record));
   stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
