@@ -6,6 +6,7 @@
 #include "commit.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/modes/modes_choice.hpp"
@@ -24,6 +25,7 @@ void know_names(Options& options, const Mesh& mesh) {
   regions.push_back("all");
   options.know_names("region", regions);
   options.know_names("boundary", mesh.boundary_names());
+  know_formula_names(options, mesh);
 }
 
 std::vector<std::string> descriptions(const std::vector<Material>& materials) {
@@ -43,6 +45,7 @@ void tell_of_idle(const Options& options, const Mesh& mesh, bool scheme) {
   for (const std::string& boundary : mesh.boundary_names()) names.push_back("boundary_" + boundary + "_ramp");
   if (!scheme)
     for (const char* name : {"time_end", "time_step", "time_safety", "time_beta2"}) names.push_back(name);
+  options.pass_over_parameters();  // of formulas among them
   std::string idle;
   for (const std::string& name : names) {
     if (!options.given(name)) continue;

@@ -4,6 +4,7 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 #include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
@@ -44,6 +45,7 @@ void know_names(Options& options, const Mesh& mesh) {
   regions.push_back("all");
   options.know_names("region", regions);
   options.know_names("boundary", mesh.boundary_names());
+  know_formula_names(options, mesh);
 }
 
 std::vector<std::string> descriptions(const std::vector<Material>& materials) {
@@ -55,10 +57,7 @@ std::vector<std::string> descriptions(const std::vector<Material>& materials) {
 void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
-  if (scene.surface)
-    print(format("surface below {}: height {:g} m, speed {:g} m/s; friction: ", scene.surface->boundary,
-                 scene.surface->height, scene.surface->speed) +
-          describe(scene.friction) + "\n");
+  if (scene.surface) print(describe(*scene.surface) + "; friction: " + describe(scene.friction) + "\n");
 }
 
 /// A signal that came during set-up ends the run while the folder is still as it was. Collective.
