@@ -315,10 +315,9 @@ void SlidingBody::observe_nodes(const StepCoefficients& step, int begin, int end
   const std::size_t moving = moving_things();
   double *const kinetic = terms_.data(), *const correction = kinetic + moving,
                 *const strain = correction + moving, *const gravity = strain + model_.mass.size();
-  const auto from = [begin](const Vector2* rows) { return rows[begin].data(); };
-  const SeenNodes seen{from(w_.data()),     from(a_.data()),     from(kept_.data()),
-                       from(force_.data()), &model_.mass[begin], v_.data()[begin].data(),
-                       kinetic + begin,     correction + begin,  strain + begin};
+  const SeenNodes seen{w_.data() + begin,     a_.data() + begin,   kept_.data() + begin,
+                       force_.data() + begin, &model_.mass[begin], v_.data() + begin,
+                       kinetic + begin,       correction + begin,  strain + begin};
   // v_n = w_n + velocity a_n = w_{n+1} − back a_n
   see(seen, end - begin, step.predictor - step.velocity, 0.25 * time_step_ * time_step_ * scene_.beta2,
       model_.kernel.instructions);

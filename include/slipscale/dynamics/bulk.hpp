@@ -86,13 +86,12 @@ class FreeMotion {
   const FreeMotionState state_;
 };
 
-/// What is seen of nodes once they have moved, [nodes] from the first of them on; rows of vectors as pairs of
-/// numbers.
+/// What is seen of nodes once they have moved, [nodes] from the first of them on.
 struct SeenNodes {
-  const double *predictor, *acceleration;  ///< w_{n+1}, m/s; a_n, m/s²
-  const double *displacement, *force;      ///< u_n, m; K u_n, N/m
-  const double* mass;                      ///< kg/m
-  double* velocity;                        ///< v_n, m/s: made
+  const Vector2 *predictor, *acceleration;  ///< w_{n+1}, m/s; a_n, m/s²
+  const Vector2 *displacement, *force;      ///< u_n, m; K u_n, N/m
+  const double* mass;                       ///< kg/m
+  Vector2* velocity;                        ///< v_n, m/s: made
   double *kinetic, *correction, *strain;  ///< ½vᵀMv, (Δt²β2/4) aᵀMa, ½uᵀKu of each node, J/m: made
 };
 
