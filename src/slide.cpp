@@ -42,10 +42,7 @@ const std::vector<std::string> may_change{"restart",
 void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
-  if (scene.surface)
-    print(format("surface below {}: height {:g} m, speed {:g} m/s; friction: ", scene.surface->boundary,
-                 scene.surface->height, scene.surface->speed) +
-          describe(scene.friction) + "\n");
+  if (scene.surface) print(describe(*scene.surface) + "; friction: " + describe(scene.friction) + "\n");
 }
 
 /// A signal that came during set-up ends the run while the folder is still as it was. Collective.
