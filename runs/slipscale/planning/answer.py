@@ -49,7 +49,8 @@ class Proposal:
 def scene_options(planning, best, mesh):
     """Options of slide of the proposed run."""
     found = dict(planning.case.scene_of(best.windows, planning.workshop.interval))
-    found = pilots.with_stress(found, planning.workshop.regions, (planning.case.window[0], found["time_end"]))
+    found = pilots.with_stress(found, planning.workshop.regions, (planning.case.window[0], found["time_end"]),
+                               planning.case.is_strip)
     found.update(time_step="auto", time_safety=best.safety, mesh_file=str(mesh.folder / "mesh.msh"))
     return found
 

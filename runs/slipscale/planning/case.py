@@ -90,6 +90,10 @@ class Case:
             and self.recipe.get("arrangement", "random") == "random"
 
     @property
+    def is_strip(self):
+        return str(self.recipe.get("microstructure_height", "none")) != "none"
+
+    @property
     def memory(self):
         """Relaxation time of friction, s; None where there is none to resolve."""
         return memory_of(self.scene)
@@ -185,12 +189,13 @@ def case_of(scene, recipe, window=None, before=None, cells=None):
     return Case(scene, recipe, window, tuple(before) if before else None, cells or ["grid", "triangle"], speeds(scene))
 
 
-def with_stress(options, regions, window):
-    """Options with frames of the von Mises stress over the window, for results that are quantiles of it."""
+def with_stress(options, regions, window, strip=False):
+    """Options with frames of the von Mises stress over the window, for results that are quantiles of it; of the stress
+    in the plane where a `strip` of microstructure lies below a homogenised region."""
     if not regions:
         return options
     kept = {name: value for name, value in options.items() if not name.startswith("fields_")}
-    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "von_mises"}
+    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "stress" if strip else "von_mises"}
 
 
 def found_files(options, folder):
