@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "commit.hpp"
+#include "scene_names.hpp"
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
@@ -38,28 +39,10 @@ const std::vector<std::string> may_change{"restart",
                                           "stiffness_kernel",
                                           "stiffness_instructions"};
 
-/// The names that options may carry: those of the mesh, and `all` for every region that has no material of
-/// its own.
-void know_names(Options& options, const Mesh& mesh) {
-  auto regions = mesh.region_names();
-  regions.push_back("all");
-  options.know_names("region", regions);
-  options.know_names("boundary", mesh.boundary_names());
-}
-
-std::vector<std::string> descriptions(const std::vector<Material>& materials) {
-  std::vector<std::string> texts;
-  for (const Material& material : materials) texts.push_back(material.description);
-  return texts;
-}
-
 void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
-  if (scene.surface)
-    print(format("surface below {}: height {:g} m, speed {:g} m/s; friction: ", scene.surface->boundary,
-                 scene.surface->height, scene.surface->speed) +
-          describe(scene.friction) + "\n");
+  if (scene.surface) print(describe(*scene.surface) + "; friction: " + describe(scene.friction) + "\n");
 }
 
 /// A signal that came during set-up ends the run while the folder is still as it was. Collective.
