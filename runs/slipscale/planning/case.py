@@ -158,7 +158,7 @@ def memory_of(scene):
     """Relaxation time of friction, s, the shortest of a slip rate; None where there is no friction."""
     if scene.get("friction_law", "none") == "none" or "surface_boundary" not in scene:
         return None
-    if float(scene.get("friction_coefficient", 1)) == 0:
+    if str(scene.get("friction_coefficient", 1)) in ("0", "0.0"):
         return None
     if scene["friction_law"] == "coulomb":
         return 0.0
@@ -166,7 +166,11 @@ def memory_of(scene):
         return float(scene["friction_time"])
     if "friction_length" not in scene:
         raise Mistake("the scene gives friction neither a time nor a length of memory")
-    speed = abs(float(scene["surface_speed"])) + float(scene.get("friction_rate_reference", 0) or 0)
+    try:
+        speed = abs(float(scene["surface_speed"])) + float(scene.get("friction_rate_reference", 0) or 0)
+    except (KeyError, ValueError) as error:
+        raise Mistake("the memory of friction is a length and the speed of the surface no number: give friction_time, so "
+                      "that c_s T can be held against the cells") from error
     return float(scene["friction_length"]) / speed if speed > 0 else math.inf
 
 
