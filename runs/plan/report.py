@@ -24,7 +24,7 @@ def wishes_table(rows):
 
 
 def costs_table(rows):
-    first = {row["scene"]: row for row in reversed(rows)}
+    first = {row["scene"]: row for row in rows}
     lines = [[name, f"{row['cell']}, {1e6 * row['size']:.0f} µm", f"{1e9 * row['step']:.3g}", f"{row['windows']:g}",
               f"{row['pilot_seconds_announced']:.2g} / {row['pilot_seconds']:.2g}",
               f"{row['seconds_said']:.3g} / {row['seconds']:.3g}", f"{row['seconds_finer']:.3g}",
@@ -42,7 +42,7 @@ def text_of(rows, scenes):
     wished = sum(abs(row["apart"]) <= row["wished"] for row in ok)
     lines = [f"Of {len(ok)} wishes {wished} are fulfilled. Of as many promises, most of them narrower, {held} hold, {within} of "
              f"them without the scatter of the finer run. The seconds are within "
-             f"{100 * SECONDS_ALLOWED:.0f} % for {near} of {len(seconds)} scenes.\n"]
+             f"{100 * SECONDS_ALLOWED:.0f} % for {near} of {len(seconds)} scenes.\n\n"]
     if ok:
         lines += [wishes_table(ok), "\n", costs_table(ok)]
     lines += ["\n", *(f"- {name}: {scene['what']}; wished for {scene['want'].replace(',', ', ')}.\n"
