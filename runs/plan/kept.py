@@ -30,6 +30,7 @@ def judged(name, promised, proposed, finer, window, before=None):
 
 
 def verdict(apart, promised, scatter):
+    """within and holds, of a relative difference against what was promised."""
     return {"within": abs(apart) <= promised, "holds": abs(apart) <= promised + ERRORS_ALLOWED * scatter}
 
 

@@ -57,6 +57,11 @@ class Scripts(unittest.TestCase):
     def test_memory(self):
         self.assertRegex(self.said("memory.py", self.build, "-nodes", "4000"), r"[1-9]\d* bytes per node at the highest")
 
+    def test_features(self):
+        rows = self.said("features.py", self.build, "-size", "2e-4", "-steps", "50", "-repeat", "1").splitlines()
+        self.assertEqual(len(rows), 2 + 2 + 19)
+        self.assertEqual({row.count("|") for row in rows[2:]}, {6})
+
     def test_runs(self):
         with tempfile.TemporaryDirectory() as folder:
             mesh = f"{folder}/mesh.msh"

@@ -7,7 +7,7 @@ import subprocess
 import studies
 
 STUDIES = ("accuracy", "contrast", "equivalence", "plan", "refinement", "relocalisation", "stability", "strip",
-           "sweep")
+           "sweep", "tradeoff")
 
 
 class Plan(studies.StudyCase):

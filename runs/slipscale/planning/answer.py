@@ -22,7 +22,7 @@ TRIED = 0.01  # of the steps of the run, twice and four times that: what its sec
 LEAST_TRIED = 0.3  # s
 KNOWN_AS_WELL = 0.15  # relative: seconds of a run that was tried for a moment, on a machine with nothing else to do
 WORTH_SINGLE = 0.9  # of the seconds: single storage that saves less is not proposed
-DISK_SPREAD, MEMORY_SPREAD = 0.1, 0.1
+DISK_SPREAD, MEMORY_SPREAD = 0.3, 0.15
 
 
 @dataclass
@@ -49,7 +49,8 @@ class Proposal:
 def scene_options(planning, best, mesh):
     """Options of slide of the proposed run."""
     found = dict(planning.case.scene_of(best.windows, planning.workshop.interval))
-    found = pilots.with_stress(found, planning.workshop.regions, (planning.case.window[0], found["time_end"]))
+    found = pilots.with_stress(found, planning.workshop.regions, (planning.case.window[0], found["time_end"]),
+                               planning.case.is_strip)
     found.update(time_step="auto", time_safety=best.safety, mesh_file=str(mesh.folder / "mesh.msh"))
     return found
 
@@ -101,7 +102,8 @@ def proposal_of(planning):
     disk = costs.disk(options, mesh.nodes, float(case.recipe["block_width"]) / best.h + 1, options["time_end"], step, row)
     disk += (mesh.folder / "mesh.msh").stat().st_size
     return Proposal(best, replace(mesh, nodes=int(facts["nodes"])), step, steps, seconds, spread,
-                    outcome.get("peak_memory", 0), disk, storage, single)
+                    outcome.get("peak_memory", 0) + costs.ROW_IN_MEMORY * options["time_end"] /
+                    options["history_interval"], disk, storage, single)
 
 
 # --- what is said of a result

@@ -90,6 +90,10 @@ class Case:
             and self.recipe.get("arrangement", "random") == "random"
 
     @property
+    def is_strip(self):
+        return str(self.recipe.get("microstructure_height", "none")) != "none"
+
+    @property
     def memory(self):
         """Relaxation time of friction, s; None where there is none to resolve."""
         return memory_of(self.scene)
@@ -154,7 +158,7 @@ def memory_of(scene):
     """Relaxation time of friction, s, the shortest of a slip rate; None where there is no friction."""
     if scene.get("friction_law", "none") == "none" or "surface_boundary" not in scene:
         return None
-    if float(scene.get("friction_coefficient", 1)) == 0:
+    if str(scene.get("friction_coefficient", 1)) in ("0", "0.0"):
         return None
     if scene["friction_law"] == "coulomb":
         return 0.0
@@ -162,7 +166,11 @@ def memory_of(scene):
         return float(scene["friction_time"])
     if "friction_length" not in scene:
         raise Mistake("the scene gives friction neither a time nor a length of memory")
-    speed = abs(float(scene["surface_speed"])) + float(scene.get("friction_rate_reference", 0) or 0)
+    try:
+        speed = abs(float(scene["surface_speed"])) + float(scene.get("friction_rate_reference", 0) or 0)
+    except (KeyError, ValueError) as error:
+        raise Mistake("the memory of friction is a length and the speed of the surface no number: give friction_time, so "
+                      "that c_s T can be held against the cells") from error
     return float(scene["friction_length"]) / speed if speed > 0 else math.inf
 
 
@@ -185,12 +193,13 @@ def case_of(scene, recipe, window=None, before=None, cells=None):
     return Case(scene, recipe, window, tuple(before) if before else None, cells or ["grid", "triangle"], speeds(scene))
 
 
-def with_stress(options, regions, window):
-    """Options with frames of the von Mises stress over the window, for results that are quantiles of it."""
+def with_stress(options, regions, window, strip=False):
+    """Options with frames of the von Mises stress over the window, for results that are quantiles of it; of the stress
+    in the plane where a `strip` of microstructure lies below a homogenised region."""
     if not regions:
         return options
     kept = {name: value for name, value in options.items() if not name.startswith("fields_")}
-    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "von_mises"}
+    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "stress" if strip else "von_mises"}
 
 
 def found_files(options, folder):

@@ -10,7 +10,9 @@ PER_STEP = 1.5e-6  # s of a step, whatever the mesh
 START = 0.2  # s
 HISTORY_ROW, CONTACT_ROW = 400, 68  # B of a row of history.h5, and of one of contact.h5 for each contact node
 CONTACT_ROWS = 1000  # of contact_every auto
-CHECKPOINT, FRAME = 330, 72  # B of a node: in a checkpoint, and in a frame of u, v and stress
+CHECKPOINT = 330  # B of a node
+FRAME = {"u": 24, "v": 24, "stress": 36, "strain": 36, "von_mises": 12, "principal": 24}  # B of a node, cells being 1.5
+ROW_IN_MEMORY = 600  # B that a run keeps of a row of the history, for its summary
 
 
 def damped(step, stiffness_damping):
@@ -73,8 +75,9 @@ def contact_rows(options, end, step):
 def disk(options, nodes, contact_nodes, end, step, row=HISTORY_ROW):
     """B that a run leaves."""
     rows = end / float(options["history_interval"])
+    frame = sum(FRAME.get(name.strip(), 24) for name in str(options.get("fields_quantities", "u,v,stress")).split(","))
     return (rows * row + contact_rows(options, end, step) * contact_nodes * CONTACT_ROW + CHECKPOINT * nodes +
-            frames_of(options, end, step) * nodes * FRAME)
+            frames_of(options, end, step) * nodes * frame)
 
 
 if __name__ == "__main__":

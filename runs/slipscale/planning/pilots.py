@@ -136,7 +136,7 @@ class Workshop:
                 if not name.startswith(OUTPUTS)}
         kept.update(time_safety=pilot.safety, contact_every=SELDOM, progress="none",
                     mesh_file=pilot.mesh.folder / "mesh.msh", output_folder=pilot.folder)
-        return with_stress(kept, self.regions, self.case.window)
+        return with_stress(kept, self.regions, self.case.window, self.case.is_strip)
 
     @property
     def interval(self):

@@ -37,7 +37,7 @@ class Kept(unittest.TestCase):
                "memory_said": 5e7, "memory": 6e7, "disk_said": 1e6, "disk": 1.1e6}
         text = text_of([row, {"scene": "coulomb", "status": "refused", "reason": "no mesh"}],
                        {"load": {"what": "a load", "want": "friction:2%"}, "coulomb": {"what": "the law", "want": "x:1%"}})
-        self.assertIn("Of 1 wishes 1 hold, 0 of them without", text)
+        self.assertIn("Of 1 wishes 0 are fulfilled. Of as many promises, most of them narrower, 1 hold, 0 of them", text)
         self.assertIn("within 30 % for 0 of 1 scenes", text)
         self.assertIn("| with its scatter |", text)
         self.assertIn("coulomb refused: no mesh", text)

@@ -31,6 +31,9 @@ class Cases(unittest.TestCase):
         self.assertEqual(memory_of({**SCENE, "friction_law": "coulomb"}), 0.0)
         self.assertIsNone(memory_of({**SCENE, "friction_law": "none"}))
         self.assertIsNone(memory_of({**SCENE, "friction_coefficient": 0}))
+        self.assertEqual(memory_of({**SCENE, "friction_coefficient": "0.3 + 0.1*x", "surface_speed": "2*t"}), 1e-7)
+        with self.assertRaisesRegex(Mistake, "give friction_time"):
+            memory_of({**length, "surface_speed": "2*t"})
 
     def test_largest_cells(self):
         """c_s T = 316 µm over two cells; a disc of 500 µm over 2.5."""

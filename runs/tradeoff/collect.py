@@ -1,0 +1,32 @@
+"""Collects the study in one table, a row for each run of each knob with its errors and its costs; run by the Snakefile."""
+
+from pathlib import Path
+
+from slipscale.reading.yaml_file import load
+from slipscale.running.studies import started_by_snakemake
+from slipscale.running.table import run_name, write_csv
+from tradeoff.errors import costs_of, errors_of, measured
+from tradeoff.knobs import groups_of, reference_of
+
+job = started_by_snakemake(globals())
+config = job.params.config
+folders = {Path(outcome).parent.name: Path(outcome).parent for outcome in job.input.runs}
+
+
+def row_of(case, knob, run):
+    """A failed run keeps its reason; one whose reference failed has no errors."""
+    name = run_name(run)
+    outcome = load(folders[name] / "outcome.yaml", written=True)
+    row = {**run, "knob": knob, "run": name, **{entry: outcome[entry] for entry in ("status", "reason")}}
+    if outcome["status"] != "ok":
+        return row
+    window = [float(time) for time in config["cases"][case]["window"]]
+    row.update(measured(folders[name], window), **costs_of(folders[name], outcome))
+    reference = reference_of(config, run) if knob in config["knobs"] else {**run, "model": "whole"}
+    other = folders.get(run_name(reference))
+    if other is not None and load(other / "outcome.yaml", written=True)["status"] == "ok":
+        row.update(errors_of(folders[name], other, window), reference=other.name)
+    return row
+
+
+write_csv(job.output[0], [row_of(case, knob, run) for (case, knob), runs in groups_of(config).items() for run in runs])

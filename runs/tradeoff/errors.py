@@ -1,0 +1,59 @@
+"""What a run is off from its reference, with the scatter over time, and what it cost."""
+
+from slipscale.measuring.distance import spectrum_distance
+from slipscale.measuring.regime import costs, friction_spectrum, measures
+from slipscale.mistakes import Mistake
+from slipscale.planning.values import averages, cycle_distance, stress
+
+CONTACT = ("friction", "frequency", "amplitude", "stick", "open", "velocity")
+BULK = ("displacement", "normal_force")
+PERIODS = ("matrix", "inclusion")
+
+
+def values_of(folder, window):
+    """Pairs of value and standard error by name; stresses of regions that have frames."""
+    found = averages(folder, window, [*CONTACT, *BULK])
+    if (folder / "fields.h5").is_file():
+        for region in PERIODS:
+            try:
+                found[f"stress_{region}"] = stress(folder, window, region)
+            except Mistake:  # a region that is not there, as of a strip or a homogeneous block
+                continue
+    return found
+
+
+def measured(folder, window):
+    """Columns: each value and its standard error; regime and whether it had settled."""
+    found = measures(folder, window)
+    columns = {"regime": found["regime"], "settled": found["settled"]}
+    for name, (value, error) in values_of(folder, window).items():
+        columns |= {name: value, f"{name}_scatter": error}
+    return columns
+
+
+def errors_of(folder, reference, window):
+    """Columns NAME_off, relative differences from the reference, NAME_bar, the standard error of each over time of both;
+    spectrum_off, the distance of the spectra, spectrum_bar, that of the halves of the reference's window."""
+    own, other = values_of(folder, window), values_of(reference, window)
+    columns = {}
+    for name in own.keys() & other.keys():
+        (value, error), (true, true_error) = own[name], other[name]
+        if true:
+            columns[f"{name}_off"] = value / true - 1
+            columns[f"{name}_bar"] = ((error / true)**2 + (true_error / true)**2)**0.5
+    columns["spectrum_off"] = spectrum_distance(friction_spectrum(folder, window), friction_spectrum(reference, window))
+    columns["spectrum_bar"] = cycle_distance(reference, reference, window, "spectrum")[1]
+    return dict(sorted(columns.items()))
+
+
+def costs_of(folder, outcome):
+    """Seconds of one core, node-steps, peak memory and disk, B, of a run."""
+    found = costs(folder)
+    return {"seconds": outcome["cpu_seconds"], **{name: found[name] for name in ("nodes", "steps", "step", "node_steps")},
+            "memory": outcome["peak_memory"], "disk": sum(file.stat().st_size for file in folder.iterdir()),
+            "energy_residual": found["energy_residual"]}
+
+
+if __name__ == "__main__":
+    raise SystemExit("tradeoff.errors is a library, no command: snakemake --snakefile runs/tradeoff/Snakefile runs the "
+                     "study.")

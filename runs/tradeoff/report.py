@@ -1,0 +1,80 @@
+"""Tables of the study in Markdown, put between marks in README.md; run by the Snakefile."""
+
+import numpy as np
+
+from slipscale.reports.publish import failures, folded, publish
+from slipscale.running.studies import started_by_snakemake
+from slipscale.running.table import markdown, read_csv
+
+ERRORS = ("friction", "frequency", "amplitude", "stick", "open", "velocity", "displacement", "stress_matrix",
+          "stress_inclusion")
+OPTIONS = ("case", "cell", "size", "safety", "beta2", "damping", "storage", "every", "model", "height", "young", "diameter",
+           "seed")
+TURNED = {"cells": ("cell",), "sizes": ("size",), "steps": ("safety",), "beta2": ("beta2",), "damping": ("damping",),
+          "storage": ("storage",), "cadence": ("every",), "models": ("model",), "heights": ("height",),
+          "together": ("cell", "size", "safety")}
+
+
+def off(row, name):
+    """Per cent, with its bar."""
+    value, bar = row.get(f"{name}_off"), row.get(f"{name}_bar")
+    return "-" if value is None else f"{100 * value:+.2g} ± {100 * bar:.1g}"
+
+
+def setting(row):
+    return ", ".join(str(row[name]) for name in TURNED[row["knob"]])
+
+
+def knobs_table(rows):
+    lines = []
+    for row in rows:
+        lines.append([row["case"], row["knob"], setting(row), *(off(row, name) for name in ERRORS),
+                      "-" if row.get("spectrum_off") is None else f"{row['spectrum_off']:.2g} ({row['spectrum_bar']:.1g})",
+                      row["regime"], f"{row['seconds']:.2g}", f"{row['node_steps']:.2g}",
+                      f"{1e-6 * row['memory']:.0f}", f"{1e-6 * row['disk']:.2g}"])
+    return markdown(["case", "knob", "set to", *(name.replace("_", " ") for name in ERRORS), "spectrum", "regime", "seconds",
+                     "node-steps", "MB memory", "MB disk"], lines)
+
+
+def extremes_table(rows):
+    """Of each contrast and size of the discs: what the homogenised block is off, against what seeds differ by."""
+    lines, keys = [], dict.fromkeys((row["young"], row["diameter"]) for row in rows)
+    for young, diameter in keys:
+        of = [row for row in rows if (row["young"], row["diameter"]) == (young, diameter)]
+        whole = [row for row in of if row["model"] == "whole"]
+        other = [row for row in of if row["model"] != "whole" and row.get("friction_off") is not None]
+        if len(whole) < 2 or not other:
+            continue
+        spread = {name: np.ptp([row[name] for row in whole]) / abs(np.mean([row[name] for row in whole]))
+                  for name in ("friction", "frequency")}
+        missed = {name: max(abs(row[f"{name}_off"]) for row in other) for name in ("friction", "frequency")}
+        cheaper = np.median([row["seconds"] for row in whole]) / np.median([row["seconds"] for row in other])
+        lines.append([young, f"{other[0]['height'] / diameter:g}", f"{100 * missed['friction']:.2g}",
+                      f"{100 * spread['friction']:.2g}", f"{100 * missed['frequency']:.2g}",
+                      f"{100 * spread['frequency']:.2g}", f"{max(row['spectrum_off'] for row in other):.2g}",
+                      f"{cheaper:.2g}", "yes" if all(missed[name] <= max(spread[name], 0.02) for name in missed) else "no"])
+    return markdown(["inclusions [GPa]", "discs per height", "friction off [%]", "seeds apart [%]", "frequency off [%]",
+                     "seeds apart [%]", "spectrum", "times cheaper", "worth it"], lines)
+
+
+def text_of(rows):
+    ok = [row for row in rows if row["status"] == "ok"]
+    knobs = [row for row in ok if row["knob"] in TURNED]
+    text = ("Errors in per cent of the reference (the same drawing on a grid of the reference's size at half the step), ± the "
+            "standard error over time of both; the spectrum's distance (that of the halves of one window); seconds of one "
+            "core, start included.\n\n")
+    for case in dict.fromkeys(row["case"] for row in knobs):
+        text += folded(f"{case}: every knob", knobs_table([row for row in knobs if row["case"] == case])) + "\n"
+    if extremes := [row for row in ok if row["knob"] not in TURNED]:
+        text += ("Where the homogenised block is no longer worth it: off by more than other seeds are apart, or 2 %.\n\n" +
+                 extremes_table(extremes))
+    if failed := list(failures(rows, OPTIONS)):
+        text += "\n" + folded("Runs that failed", "".join(f"- {line}\n" for line in failed))
+    return text
+
+
+if "snakemake" in globals():
+    job = started_by_snakemake(globals())
+    publish(text_of(read_csv(job.input.table)), job.output[0], job.params.readme, [job.input.picture])
+elif __name__ == "__main__":
+    started_by_snakemake(globals())
