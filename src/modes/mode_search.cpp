@@ -193,10 +193,16 @@ ModesFound improve(ModesBasis& basis, const SlidingLaw& law, std::vector<Sliding
       const std::size_t end = std::min(open.size(), begin + at_once);
       Columns residuals(basis.body().free().size(), 2 * static_cast<Eigen::Index>(end - begin));
       Eigen::Index columns = 0;
+      Eigen::MatrixXcd vectors(basis.size(), static_cast<Eigen::Index>(end - begin));
+      for (std::size_t n = begin; n < end; ++n) {
+        fill_up(modes[open[n]].vector, basis.size());
+        vectors.col(static_cast<Eigen::Index>(n - begin)) = modes[open[n]].vector;
+      }
+      const Columns shapes = basis.shape_of(vectors);  // in one go: the basis is read from memory once
       for (std::size_t n = begin; n < end; ++n) {
         SlidingMode& mode = modes[open[n]];
-        fill_up(mode.vector, basis.size());
-        const auto residual = basis.residual(law, mode);
+        const auto residual =
+            basis.residual(law, mode, shapes.middleCols(2 * static_cast<Eigen::Index>(n - begin), 2));
         mode.residual = residual.size;
         if (residual.size <= tolerance) continue;
         worst = std::max(worst, residual.size);
