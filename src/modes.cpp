@@ -7,6 +7,7 @@
 #include "scene_names.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/modes/modes_choice.hpp"
@@ -29,6 +30,7 @@ void tell_of_idle(const Options& options, const Mesh& mesh, bool scheme) {
   for (const std::string& boundary : mesh.boundary_names()) names.push_back("boundary_" + boundary + "_ramp");
   if (!scheme)
     for (const char* name : {"time_end", "time_step", "time_safety", "time_beta2"}) names.push_back(name);
+  options.pass_over_parameters();  // of formulas among them
   std::string idle;
   for (const std::string& name : names) {
     if (!options.given(name)) continue;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slipscale/base/options.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 #include "slipscale/mesh/mesh.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -17,6 +18,7 @@ inline void know_names(Options& options, const Mesh& mesh) {
   regions.push_back("all");
   options.know_names("region", regions);
   options.know_names("boundary", mesh.boundary_names());
+  know_formula_names(options, mesh);
 }
 
 inline std::vector<std::string> descriptions(const std::vector<Material>& materials) {

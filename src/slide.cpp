@@ -10,6 +10,7 @@
 #include "slipscale/dynamics/sliding_body.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/checkpoints.hpp"
+#include "slipscale/record/hints.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -41,10 +42,7 @@ const std::vector<std::string> may_change{"restart",
 void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
-  if (scene.surface)
-    print(format("surface below {}: height {:g} m, speed {:g} m/s; friction: ", scene.surface->boundary,
-                 scene.surface->height, scene.surface->speed) +
-          describe(scene.friction) + "\n");
+  if (scene.surface) print(describe(*scene.surface) + "; friction: " + describe(scene.friction) + "\n");
 }
 
 /// A signal that came during set-up ends the run while the folder is still as it was. Collective.
@@ -106,7 +104,9 @@ void slide(Options& options) {
     restart->read(body.state());
     body.resume();
   }
+  print(describe_memory(body));
   print_notes(remarks_at_start(body));
+  if (!restart) print_notes(hints_at_start(body, step, record));
   stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);

@@ -11,8 +11,11 @@
 namespace slipscale {
 namespace {
 
-/// An option's name, not a value: `-0.3`, `-.5` and `-inf` are values. PETSc's own rule decides.
+/// An option's name, not a value: `-0.3`, `-.5` and `-inf` are values. PETSc's own rule decides, but for
+/// formulas such as `-p0*x`: no name holds their signs.
 bool is_option(const std::string& argument) {
+  if (argument.find_first_of("*/+^(),") != std::string::npos && argument.find('=') == std::string::npos)
+    return false;
   PetscBool valid = PETSC_FALSE;
   petsc(PetscOptionsValidKey(argument.c_str(), &valid));
   return valid;

@@ -43,18 +43,16 @@ SLIPSCALE_CLONES void add_parts(const double* terms, std::size_t count, const do
 }
 
 /// Largest sizes of terms, a multiple of `lanes`, lane by lane; `faults` becomes NaN where one is not finite.
-SLIPSCALE_CLONES void find_largest(const double* terms, std::size_t count, double* largest, double* faults) {
-  double sizes[lanes], not_finite[lanes];
-  std::memcpy(sizes, largest, sizeof sizes);
-  std::memcpy(not_finite, faults, sizeof not_finite);
-  for (std::size_t k = 0; k < count; k += lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const double size = std::abs(terms[k + lane]);
-      sizes[lane] = size > sizes[lane] ? size : sizes[lane];
-      not_finite[lane] += size - size;  // 0, or NaN where the term is not finite
-    }
-  std::memcpy(largest, sizes, sizeof sizes);
-  std::memcpy(faults, not_finite, sizeof not_finite);
+SLIPSCALE_CLONES void find_largest(const double* terms, std::size_t count, Side* largest, Side* faults) {
+  Side sizes = *largest, not_finite = *faults;
+  for (std::size_t k = 0; k < count; k += lanes) {
+    Side term;
+    std::memcpy(&term, terms + k, sizeof term);
+    const Side size = term < 0 ? -term : term;
+    sizes = size > sizes ? size : sizes;
+    not_finite += size - size;  // 0, or NaN where the term is not finite
+  }
+  *largest = sizes, *faults = not_finite;
 }
 
 /// The terms behind the last whole side, filled up with zeros.
@@ -90,13 +88,16 @@ CutSum cuts(double largest, std::int64_t count) {
 }  // namespace
 
 double largest_size(std::span<const double> terms) {
-  std::array<double, lanes> largest{}, faults{};
+  Side largest{}, faults{};
   const std::size_t whole = terms.size() / lanes * lanes;
-  find_largest(terms.data(), whole, largest.data(), faults.data());
-  find_largest(rest_of(terms, whole).data(), lanes, largest.data(), faults.data());
-  for (const double fault : faults)
-    if (std::isnan(fault)) return std::numeric_limits<double>::infinity();
-  return *std::max_element(largest.begin(), largest.end());
+  find_largest(terms.data(), whole, &largest, &faults);
+  find_largest(rest_of(terms, whole).data(), lanes, &largest, &faults);
+  double found = 0;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (std::isnan(faults[lane])) return std::numeric_limits<double>::infinity();
+    found = std::max(found, largest[lane]);
+  }
+  return found;
 }
 
 CutSum cut_sum(std::span<const double> terms, double largest, std::int64_t count) {

@@ -42,4 +42,9 @@ Range one_of_or_number(std::vector<std::string> words, const Range& number) {
   return range;
 }
 
+Range or_formula(Range range, std::string variables) {
+  range.variables = std::move(variables);
+  return range;
+}
+
 }  // namespace slipscale::range

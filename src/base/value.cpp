@@ -35,21 +35,36 @@ std::string unit_note(const Option& option) {
   return option.unit == "1" ? " (ratio)" : " (" + option.unit + ")";
 }
 
+/// " or a formula of x, y, t", "s" where there are several.
+std::string formula_text(const Option& option, const std::string& plural = "") {
+  std::string list;
+  for (const char variable : option.range.variables)
+    list += (list.empty() ? "" : ", ") + std::string(1, variable);
+  return list.empty() ? "" : " or " + std::string(plural.empty() ? "a formula" : "formulas") + " of " + list;
+}
+
 std::string kind_text(const Option& option) {
   const std::string range = option.range.text.empty() ? "" : " " + option.range.text;
   switch (option.kind) {
     case Kind::real:
-      return "a number" + range;
+      return "a number" + range + formula_text(option);
     case Kind::integer:
       return "a whole number" + range;
     case Kind::reals:
-      return "numbers" + range + " separated by commas";
+      return "numbers" + range + formula_text(option, "s") + " separated by commas";
     case Kind::flag:
       return "true or false";
     case Kind::text:
       break;
   }
-  return option.range.words.empty() ? "a text" : option.range.text;
+  return option.range.words.empty() ? "a text" : option.range.text + formula_text(option);
+}
+
+/// Its names and its grammar are looked at when it is compiled.
+bool may_be_formula(const Option& option, const std::string& text) {
+  if (option.range.variables.empty() || text.empty() || items(text).size() != 1) return false;
+  const std::string& known = option.range.words.empty() ? "" : nearest(text, option.range.words);
+  return known.empty();
 }
 
 [[noreturn]] void refuse(const Option& option, const std::string& name, const std::string& text,
@@ -69,6 +84,7 @@ void check_number(const Option& option, const std::string& name, const std::stri
     if (!x && is_whole && digits[0] == '-' && number(digits) && option.range.accepts)
       refuse(option, name, text, option.range.text);
   }
+  if (!x && option.kind == Kind::real && may_be_formula(option, text)) return;
   if (!x) {
     const bool comma = option.kind == Kind::real && text.find(',') != std::string::npos;
     refuse(option, name, "'" + text + "'", kind_text(option),
@@ -80,6 +96,7 @@ void check_number(const Option& option, const std::string& name, const std::stri
 void check_list(const Option& option, const std::string& name, const std::string& text) {
   for (const std::string& item : items(text)) {
     const auto x = number(item);
+    if (!x && may_be_formula(option, item)) continue;
     if (!x) refuse(option, name, "'" + text + "'", kind_text(option), ", and '" + item + "' is no number");
     if (option.range.accepts && !option.range.accepts(*x))
       refuse(option, name, text, kind_text(option), ", and " + item + " is not");
@@ -93,9 +110,11 @@ void check_text(const Option& option, const std::string& name, const std::string
   if (range.words_or_number) {
     const auto x = number(text);
     if (x && (!range.accepts || range.accepts(*x))) return;
+    if (!x && may_be_formula(option, text)) return;
   }
   const std::string near = nearest(text, range.words);
-  refuse(option, name, "'" + text + "'", range.text, near.empty() ? "" : "; did you mean " + near + "?");
+  refuse(option, name, "'" + text + "'", kind_text(option),
+         near.empty() ? "" : "; did you mean " + near + "?");
 }
 
 }  // namespace
@@ -127,11 +146,21 @@ std::optional<bool> truth(const std::string& text) {
   return std::nullopt;
 }
 
+/// The first comma from there on that stands in no parentheses: those of formulas hold arguments.
+static std::size_t comma_after(const std::string& text, std::size_t begin) {
+  int depth = 0;
+  for (std::size_t k = begin; k < text.size(); ++k) {
+    depth += (text[k] == '(') - (text[k] == ')');
+    if (text[k] == ',' && depth <= 0) return k;
+  }
+  return std::string::npos;
+}
+
 std::vector<std::string> items(const std::string& text) {
   std::vector<std::string> list;
   if (text.empty()) return list;
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-    end = text.find(',', begin);
+    end = comma_after(text, begin);
     list.push_back(trimmed(text.substr(begin, end - begin)));
   }
   return list;

@@ -7,8 +7,11 @@ void ContactNodes::add(int local_node, int place, double nodal_mass, double leng
   node.push_back(local_node);
   slot.push_back(place);
   mass.push_back(nodal_mass);
+  normal_mass.push_back(nodal_mass);
   tributary_length.push_back(length);
   clearance.push_back(height);
+  rise.push_back(0);
+  past_rise.push_back(0);
   held.push_back(is_held);
   memory.push_back({});
   force.push_back({0, 0});

@@ -13,8 +13,8 @@ Schema friction_schema() {
   return {
       {"friction_law", Kind::text, "", required, range::one_of({"none", "coulomb", "regularized"}),
        "law of friction between body and surface; regularized is the simplified Prakash-Clifton law"},
-      {"friction_coefficient", Kind::real, "1", required, range::physical_non_negative,
-       "coefficient of friction, mu"},
+      {"friction_coefficient", Kind::real, "1", required,
+       range::or_formula(range::physical_non_negative, "xt"), "coefficient of friction, mu"},
       {"friction_length", Kind::real, "m", required, range::physical_non_negative,
        "slip distance over which the traction follows the pressure, L*; T = L*/|V|"},
       {"friction_time", Kind::real, "s", absent, range::physical_non_negative,
@@ -44,7 +44,9 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
   }
   if (law == "none") return choice;
   choice.law = law == "coulomb" ? FrictionChoice::Law::coulomb : FrictionChoice::Law::regularized;
-  choice.coefficient = options.real("friction_coefficient");
+  const Quantity coefficient = options.quantity("friction_coefficient");
+  choice.coefficient = coefficient.number;
+  choice.coefficient_formula = coefficient.formula;
   if (choice.law == FrictionChoice::Law::coulomb) return choice;
   choice.stored_strength = options.text("friction_threshold") == "regularized";
   choice.by_slip_rate = options.text("friction_rate") == "slip";
@@ -63,6 +65,10 @@ FrictionChoice read_friction(const Options& options, const Surface& surface) {
     choice.time = *time;
   } else {
     choice.length = options.real("friction_length");
+    if (surface.speed_formula)
+      throw UserError(
+          "-surface_speed is a formula, so that L*/|V| is no constant; give -friction_time in s, or "
+          "-friction_rate slip");
     if (surface.speed == 0)
       throw UserError(
           "-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -friction_time in s, "
@@ -93,9 +99,39 @@ FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
   return RegularisedInstantaneous{mu, step};
 }
 
+FrictionLaws friction_laws(const FrictionChoice& choice, double time_step,
+                           const std::vector<Vector2>& nodes) {
+  const auto one_each = [&](const auto& law) -> FrictionLaws {
+    if constexpr (requires { law.coefficient; }) {
+      if (choice.varies()) return std::vector(nodes.size(), law);
+    }
+    return law;
+  };
+  FrictionLaws laws = std::visit(one_each, friction_law(choice, time_step));
+  if (choice.varies()) (void)follow(choice, 0, nodes, laws);
+  return laws;
+}
+
+bool follow(const FrictionChoice& choice, double time, const std::vector<Vector2>& nodes,
+            FrictionLaws& laws) {
+  bool sound = true;
+  const auto set = [&](auto& each) {
+    if constexpr (requires { each.begin(); }) {
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double mu = choice.mu().at(nodes[k], time);
+        sound = sound && mu >= 0 && std::isfinite(mu);
+        each[k].coefficient = mu;
+      }
+    }
+  };
+  std::visit(set, laws);
+  return sound;
+}
+
 std::string describe(const FrictionChoice& choice) {
   if (choice.law == FrictionChoice::Law::none) return "none";
-  const std::string mu = format("mu {:g}", choice.coefficient);
+  const std::string mu = choice.coefficient_formula ? "mu " + choice.coefficient_formula->text()
+                                                    : format("mu {:g}", choice.coefficient);
   if (choice.law == FrictionChoice::Law::coulomb) return "coulomb, " + mu;
   const std::string relaxation =
       choice.by_slip_rate

@@ -41,6 +41,7 @@ std::vector<StateGroup> SlidingBody::state() {
   else
     contact.arrays = {{"memory", "Pa", "", 2, nullptr}};
   ledger_.add_state(nodes, boundary, contact);
+  body_acceleration_.add_state(nodes);
 
   carried_ = {static_cast<double>(step_), surface_travel_, start_gravity_, start_energy_,
               has_touched() ? 1.0 : 0.0};
@@ -67,6 +68,10 @@ void SlidingBody::resume() {
   if (!physics_.keeps_force())
     for (int k = 0; k < boundary_.size(); ++k) force_[boundary_.node[k]] = carried_force_[k];
   ledger_.resume(surface_travel_);
+  if (lifts())
+    for (const long n : {step_ - 1, step_})
+      for (int k = 0; k < contact_.size(); ++k)
+        contact_.lift(k, clearance(k, static_cast<double>(n) * time_step_));
   u_.begin_update();
 }
 

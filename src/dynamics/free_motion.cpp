@@ -21,15 +21,17 @@ constexpr std::array<Move, 3> ways{base::move<physics>, avx2::move<physics>, avx
 
 template <std::size_t... k>
 constexpr auto table_of(std::index_sequence<k...>) {
-  return std::array{ways<BulkPhysics{(k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0}>...};
+  return std::array{
+      ways<BulkPhysics{(k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0, (k & 16) != 0}>...};
 }
 
 }  // namespace
 
 FreeMotion::Move FreeMotion::moving(const BulkPhysics& physics, Instructions instructions) {
-  static constexpr auto table = table_of(std::make_index_sequence<16>());
+  static constexpr auto table = table_of(std::make_index_sequence<32>());
   const unsigned row = (physics.mass_damping ? 1u : 0u) | (physics.stiffness_damping ? 2u : 0u) |
-                       (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u);
+                       (physics.numerical_dissipation ? 4u : 0u) | (physics.keeps_acceleration ? 8u : 0u) |
+                       (physics.graded_gravity ? 16u : 0u);
   return table[row][static_cast<std::size_t>(instructions)];
 }
 

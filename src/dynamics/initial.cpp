@@ -1,9 +1,11 @@
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/contact/surface.hpp"
 #include "slipscale/dynamics/conditions.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 
 namespace slipscale {
 namespace {
@@ -22,9 +24,13 @@ void refuse_unless_uniform(const std::vector<Material>& materials) {
 }  // namespace
 
 Schema initial_schema() {
+  const Range of_place = range::or_formula(range::physical, "xy");
   return {
-      {"initial_velocity", Kind::reals, "m/s", "0,0", range::physical,
+      {"initial_velocity", Kind::reals, "m/s", "0,0", of_place,
        "velocity of the whole body at the start, vx,vy"},
+      {"initial_displacement", Kind::reals, "m", "0,0", of_place,
+       "displacement at the start, ux,uy, added to that of the gap and of the uniform state; need not be in "
+       "equilibrium"},
       {"initial_rotation", Kind::real, "rad/s", "0", range::physical,
        "turns the body counter-clockwise about the middle of the block at the start, added to the velocity"},
       {"initial_sine_amplitude", Kind::real, "m/s", "0", range::physical,
@@ -32,18 +38,29 @@ Schema initial_schema() {
       {"initial_sine_wavelength", Kind::real, "m", required, range::physical_positive, "its wavelength"},
       {"initial_gap", Kind::real, "m", "0", range::physical_non_negative,
        "lifts the body off the surface at the start"},
-      {"initial_pressure", Kind::real, "Pa", "0", range::physical,
+      {"initial_pressure", Kind::real, "Pa", "0", of_place,
        "starts from the uniform state u_y = -p y/C22; friction remembers this pressure"},
-      {"initial_shear", Kind::real, "Pa", "0", range::physical,
+      {"initial_shear", Kind::real, "Pa", "0", of_place,
        "starts from the uniform state u_x = tau(H-y)/C66; friction remembers this traction"},
   };
 }
 
-InitialState read_initial(const Options& options) {
+InitialState read_initial(const Options& options, const Mesh& mesh) {
   InitialState initial;
-  const auto velocity = options.reals("initial_velocity");
-  if (velocity.size() != 2) throw UserError("-initial_velocity needs two numbers vx,vy in m/s");
-  initial.velocity = {velocity[0], velocity[1]};
+  std::vector<int> nodes(static_cast<std::size_t>(mesh.nodes.owned));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  const auto read = [&](const std::string& name, const std::string& wanted) {
+    const auto found = options.quantities(name);
+    if (found.size() != 2) throw UserError("-" + name + " needs two numbers or formulas " + wanted);
+    for (const Quantity& quantity : found) check_at(options, name, quantity, mesh, nodes);
+    return std::array{found[0], found[1]};
+  };
+  const auto velocity = read("initial_velocity", "vx,vy in m/s");
+  for (int axis = 0; axis < 2; ++axis) {
+    initial.velocity[axis] = velocity[axis].number;
+    initial.velocity_formula[axis] = velocity[axis].formula;
+  }
+  initial.displacement = read("initial_displacement", "ux,uy in m");
   initial.rotation = options.real("initial_rotation");
   initial.amplitude = options.real("initial_sine_amplitude");
   if (initial.amplitude != 0)
@@ -56,8 +73,12 @@ InitialState read_initial(const Options& options) {
     initial.gap = options.real("initial_gap");
   else
     options.refuse_idle({"initial_gap"}, without_surface);
-  initial.pressure = options.real("initial_pressure");
-  initial.shear = options.real("initial_shear");
+  const Quantity pressure = quantity_at(options, "initial_pressure", mesh, nodes),
+                 shear = quantity_at(options, "initial_shear", mesh, nodes);
+  initial.pressure = pressure.number;
+  initial.pressure_formula = pressure.formula;
+  initial.shear = shear.number;
+  initial.shear_formula = shear.formula;
   return initial;
 }
 
@@ -73,10 +94,17 @@ void set_initial(const InitialState& initial, const Mesh& mesh, const std::vecto
   const double bottom = mesh.lower[1], height = mesh.upper[1] - bottom;
   for (int i = 0; i < mesh.nodes.size(); ++i) {
     const double x = mesh.nodes.position[i][0], y = mesh.nodes.position[i][1] - bottom;
-    displacement[i] = {initial.shear * (height - y) / materials.front().c66(),
-                       initial.gap - initial.pressure * y / materials.front().c22()};
+    const Vector2& place = mesh.nodes.position[i];
+    const double shear = initial.shear_at_start().at(place, 0),
+                 pressure = initial.pressure_at_start().at(place, 0);
+    displacement[i] = {shear * (height - y) / materials.front().c66(),
+                       initial.gap - pressure * y / materials.front().c22()};
+    for (int axis = 0; axis < 2; ++axis)
+      if (!initial.displacement[axis].is_zero())
+        displacement[i][axis] += initial.displacement[axis].at(place, 0);
     if (i >= mesh.nodes.owned) continue;
-    velocity[i] = initial.velocity;
+    for (int axis = 0; axis < 2; ++axis)
+      velocity[i][axis] = Quantity{initial.velocity[axis], initial.velocity_formula[axis]}.at(place, 0);
     if (initial.rotation != 0) {
       velocity[i][0] -= initial.rotation * (mesh.nodes.position[i][1] - middle[1]);
       velocity[i][1] += initial.rotation * (mesh.nodes.position[i][0] - middle[0]);

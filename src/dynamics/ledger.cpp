@@ -18,10 +18,13 @@ void add_work(StateGroup& group, const std::string& name, const std::string& tex
 }  // namespace
 
 void EnergyLedger::start(const BulkPhysics& physics, int owned_nodes, int boundary_nodes, int contact_nodes,
-                         int plates) {
+                         int plates, bool lifts, bool absorbs) {
   physics_ = physics;
   loads_ = supports_ = NodalWork(boundary_nodes);
   drive_ = heat_ = impact_ = NodalWork(contact_nodes);
+  lifts_ = lifts, absorbs_ = absorbs;
+  if (lifts) lift_ = NodalWork(contact_nodes);
+  if (absorbs) radiated_ = NodalWork(boundary_nodes);
   plates_ = NodalWork(plates);
   plates_scheme_.assign(plates, 0);
   if (physics.mass_damping || physics.stiffness_damping) {
@@ -68,6 +71,8 @@ void EnergyLedger::correct_bulk(const BulkPhysics& physics, const Damping& dampi
     total[k] = {nodes.load[k][0] + nodes.support[k][0], nodes.load[k][1] + nodes.support[k][1]};
   for (int k = 0; k < contact.size(); ++k)
     for (int axis = 0; axis < 2; ++axis) total[contact.slot[k]][axis] += contact.force[k][axis];
+  for (std::size_t k = 0; k < nodes.absorbed.size(); ++k)
+    for (int axis = 0; axis < 2; ++axis) total[k][axis] += nodes.absorbed[k][axis];
 
   const LossWeights weight = weights(first);
   const bool damped = physics.mass_damping || physics.stiffness_damping;
@@ -89,6 +94,19 @@ void EnergyLedger::correct_bulk(const BulkPhysics& physics, const Damping& dampi
   }
 }
 
+void EnergyLedger::add_lift(const ContactNodes& contact) {
+  for (int k = 0; k < contact.size(); ++k)
+    lift_.add(k, beta2_, contact.force[k][1] * contact.past_rise[k], contact.force[k][1] * contact.rise[k]);
+}
+
+void EnergyLedger::add_absorbed(const BoundaryNodes& nodes, const NodalState& state) {
+  for (int k = 0; k < nodes.size(); ++k) {
+    const Vector2& u = state.displacement[nodes.node[k]];
+    const Vector2 next{u[0] - nodes.displacement[k][0], u[1] - nodes.displacement[k][1]};
+    radiated_.add(k, beta2_, -dot(nodes.absorbed[k], nodes.past_increment[k]), -dot(nodes.absorbed[k], next));
+  }
+}
+
 void EnergyLedger::add_plates(const StraightSides& sides) {
   int k = 0;
   for (const auto& side : sides) {
@@ -106,15 +124,21 @@ std::vector<EnergyLedger::Term> EnergyLedger::works() const {
   for (std::size_t i = 0; i < damping.size(); ++i)
     damping[i] = (damping_[i][0] - coming_[i][0]) + (damping_[i][1] - coming_[i][1]);
   for (std::size_t i = 0; i < scheme.size(); ++i) scheme[i] = scheme_[i][0] + scheme_[i][1];
-  return {{&Energy::loads, loads_.done},
-          {&Energy::loads, plates_.done},
-          {&Energy::supports, supports_.done},
-          {&Energy::surface_drive, drive_.done},
-          {&Energy::friction_heat, heat_.done},
-          {&Energy::impact_loss, impact_.done},
-          {&Energy::damping, damping},
-          {&Energy::scheme_dissipation, scheme},
-          {&Energy::scheme_dissipation, plates_scheme_}};
+  std::vector<Term> terms{{&Energy::loads, loads_.done},
+                          {&Energy::loads, plates_.done},
+                          {&Energy::supports, supports_.done},
+                          {&Energy::surface_drive, drive_.done},
+                          {&Energy::friction_heat, heat_.done},
+                          {&Energy::impact_loss, impact_.done},
+                          {&Energy::damping, damping},
+                          {&Energy::scheme_dissipation, scheme},
+                          {&Energy::scheme_dissipation, plates_scheme_}};
+  if (lifts_) {
+    terms.push_back({&Energy::surface_drive, lift_.done});
+    terms.push_back({&Energy::impact_loss, lift_.done});
+  }
+  if (absorbs_) terms.push_back({&Energy::radiated, radiated_.done});
+  return terms;
 }
 
 void EnergyLedger::add_state(StateGroup& nodes, StateGroup& boundary_nodes, StateGroup& contact_nodes) {
@@ -125,9 +149,11 @@ void EnergyLedger::add_state(StateGroup& nodes, StateGroup& boundary_nodes, Stat
     nodes.arrays.push_back({"scheme_dissipation", "J/m", "lost to the time scheme", 2, numbers(scheme_)});
   add_work(boundary_nodes, "loads", "work of the tractions and plates", loads_);
   add_work(boundary_nodes, "supports", "work of the prescribed displacements", supports_);
+  if (absorbs_) add_work(boundary_nodes, "radiated", "taken by absorbing sides", radiated_);
   add_work(contact_nodes, "surface_drive", "work of the motor that drives the surface", drive_);
   add_work(contact_nodes, "friction_heat", "heat of friction", heat_);
   add_work(contact_nodes, "impact_loss", "energy lost where the node met the surface", impact_);
+  if (lifts_) add_work(contact_nodes, "lift", "work of the surface that moves up and down", lift_);
 }
 
 std::vector<StateGroup> EnergyLedger::plates_state(const StraightSides& sides) {

@@ -114,8 +114,8 @@ std::string sunk(const SlidingBody& body) {
   for (const OuterEdge& edge : edges_left_out(mesh, contact))
     for (int i : edge.nodes) {
       if (i >= mesh.nodes.owned || counted[i]) continue;
-      const double height =
-          mesh.nodes.position[i][1] + body.displacement_n()[i][1] - body.scene().surface->height;
+      const double height = mesh.nodes.position[i][1] + body.displacement_n()[i][1] -
+                            body.scene().surface->height_at(mesh.nodes.position[i][0], body.time());
       if (height >= -of_edge * std::hypot(edge.outward[0], edge.outward[1])) continue;
       counted[i] = 1;
       found.count += 1;
@@ -131,7 +131,8 @@ std::string sunk(const SlidingBody& body) {
 }
 
 std::string memory_below_step(const SlidingBody& body) {
-  const double memory = shortest_memory(body.scene().friction, body.scene().surface->speed);
+  const Surface& surface = *body.scene().surface;
+  const double memory = shortest_memory(body.scene().friction, surface.velocity(surface.ramp));
   if (!(memory > 0 && memory < body.time_step())) return "";
   return "the relaxation time of friction, " + engineering(memory, "s") + ", is shorter than the step, " +
          engineering(body.time_step(), "s") +

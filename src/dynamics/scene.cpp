@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/dynamics/formulas.hpp"
 
 namespace slipscale {
 namespace {
@@ -40,12 +42,50 @@ void refuse_held_contact(const std::vector<BoundaryCondition>& conditions, const
                       "so that none of it could meet the surface; make it free, or name another boundary");
 }
 
+void read_body_acceleration(const Options& options, const Mesh& mesh, Scene& scene) {
+  const auto acceleration = options.quantities("body_acceleration");
+  if (acceleration.size() != 2)
+    throw UserError("-body_acceleration needs two numbers or formulas ax,ay in m/s2");
+  std::vector<int> nodes(static_cast<std::size_t>(mesh.nodes.owned));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  for (int axis = 0; axis < 2; ++axis) {
+    check_at(options, "body_acceleration", acceleration[axis], mesh, nodes);
+    scene.body_acceleration[axis] = acceleration[axis].number;
+    scene.body_acceleration_formula[axis] = acceleration[axis].formula;
+  }
+  if (scene.acceleration().of_time() && scene.acceleration().of_place())
+    throw UserError(
+        "-body_acceleration varies with the place and with t, which would take a formula at every node in "
+        "every step; make it vary with one of them");
+}
+
 }  // namespace
+
+std::vector<std::string> unsteady_formulas(const Scene& scene) {
+  std::vector<std::string> names;
+  const auto name = [&](bool unsteady, const std::string& option) {
+    if (unsteady) names.push_back(option);
+  };
+  const auto of_time = [](const SharedFormula& formula) { return formula && formula->of_time(); };
+  for (const BoundaryCondition& condition : scene.conditions) {
+    const std::string prefix = "boundary_" + condition.boundary + "_";
+    name(condition.displacement_formula[0] != nullptr, prefix + "x");
+    name(condition.displacement_formula[1] != nullptr, prefix + "y");
+    name(of_time(condition.pressure_formula), prefix + "pressure");
+    name(of_time(condition.shear_formula), prefix + "shear");
+    name(condition.force_formula != nullptr, prefix + "force");
+  }
+  name(scene.acceleration().of_place() || scene.acceleration().of_time(), "body_acceleration");
+  name(scene.surface && scene.surface->height_formula, "surface_height");
+  name(scene.surface && scene.surface->speed_formula, "surface_speed");
+  name(scene.friction.coefficient_formula != nullptr, "friction_coefficient");
+  return names;
+}
 
 Schema scene_schema() {
   const Schema own{
-      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::physical,
-       "acceleration of every part of the body, ax,ay (gravity)"},
+      {"body_acceleration", Kind::reals, "m/s2", "0,0", range::or_formula(range::physical, "xyt"),
+       "acceleration of every part of the body, ax,ay (gravity); formulas either of the place or of time"},
       {"damping_mass", Kind::real, "1/s", "0", range::physical_non_negative,
        "Rayleigh damping proportional to mass, a"},
       {"damping_stiffness", Kind::real, "s", "0", range::physical_non_negative,
@@ -71,16 +111,15 @@ Schema scene_schema() {
        "vector instructions of the inner loops: auto takes the widest that the processor has, the others are "
        "for comparison; the same bits"},
   };
-  return own + boundary_schema() + initial_schema() + surface_schema() + friction_schema();
+  return own + parameter_schema() + boundary_schema() + initial_schema() + surface_schema() +
+         friction_schema();
 }
 
 Scene read_scene(const Options& options, const Mesh& mesh) {
   Scene scene;
   scene.conditions = read_conditions(options, mesh);
-  scene.initial = read_initial(options);
-  const auto acceleration = options.reals("body_acceleration");
-  if (acceleration.size() != 2) throw UserError("-body_acceleration needs two numbers ax,ay in m/s2");
-  scene.body_acceleration = {acceleration[0], acceleration[1]};
+  scene.initial = read_initial(options, mesh);
+  read_body_acceleration(options, mesh, scene);
   scene.damping = {options.real("damping_mass"), options.real("damping_stiffness")};
   scene.beta2 = options.real("time_beta2");
   if (has_surface(options)) {
@@ -90,7 +129,11 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
       throw UserError("-surface_boundary: boundary '" + scene.surface->boundary +
                       "' does not face down, where the rigid surface is; name the lower side of the body");
     refuse_held_contact(scene.conditions, scene.surface->boundary);
+    const auto& nodes = mesh.find_boundary(scene.surface->boundary)->nodes;
+    check_at(options, "surface_height", {scene.surface->height, scene.surface->height_formula}, mesh, nodes);
+    check_at(options, "surface_speed", {scene.surface->speed, scene.surface->speed_formula}, mesh, nodes);
     scene.friction = read_friction(options, *scene.surface);
+    check_at(options, "friction_coefficient", scene.friction.mu(), mesh, nodes);
   } else {
     auto idle = names_in(surface_schema() + friction_schema());
     std::erase(idle, "surface_boundary");

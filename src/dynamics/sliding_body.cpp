@@ -23,7 +23,7 @@ std::vector<std::string> boundaries_in_use(const Scene& scene) {
 BulkPhysics bulk_physics(const Scene& scene) {
   const bool dissipates = scene.beta2 > 0.5;
   return {scene.damping.mass > 0, scene.damping.stiffness > 0, dissipates,
-          dissipates || scene.friction.by_slip_rate};
+          dissipates || scene.friction.by_slip_rate, scene.acceleration().of_place()};
 }
 
 BulkPhysics keeping_acceleration(BulkPhysics physics) {
@@ -85,14 +85,18 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
       boundary_names_(boundaries_in_use(scene)),
       boundary_(model, boundary_names_),
       loads_(model.mesh, scene.conditions, boundary_),
-      law_(friction_law(scene.friction, time_step)),
-      start_law_(friction_law(scene.friction, 0)),
+      body_acceleration_(scene.acceleration(), model.mesh, scene.beta2, time_step),
+      formulas_of_time_(!unsteady_formulas(scene).empty()),
       physics_(bulk_physics(scene)),
       ledger_(scene.beta2, time_step) {
   set_initial(scene.initial, model.mesh, model.materials, u_.data(), w_.data());
   supports_ = std::make_unique<Supports>(comm, model.mesh, scene.conditions, boundary_, u_.data());
   straight_ = std::make_unique<StraightSides>(comm, model.mesh, scene.conditions, boundary_, *supports_,
                                               u_.data(), w_.data());
+  absorbing_ = std::make_unique<AbsorbingSides>(comm, model, scene.conditions, scene.initial, boundary_,
+                                                *supports_, *straight_);
+  if (!absorbing_->empty()) boundary_.absorbed.assign(boundary_.node.size(), {0, 0});
+  supports_->start_formulas(boundary_, time_step, w_.data());
   inverse_mass_.reserve(model.mass.size());
   for (const double m : model.mass) inverse_mass_.push_back(1 / m);
   if (physics_.keeps_force())
@@ -100,10 +104,12 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   else
     passing_.resize(std::visit([](const auto& each) { return each.passing_size(); }, model.stiffness));
   if (scene_.surface) set_contact_nodes();
+  law_ = friction_laws(scene.friction, time_step, contact_places_);
+  start_law_ = friction_laws(scene.friction, 0, contact_places_);
   const std::size_t owned = model.mass.size();
   terms_.resize(2 * moving_things() + owned + (scene_.body_acceleration != Vector2{} ? owned : 0));
   ledger_.start(physics_, model.mesh.nodes.owned, boundary_.size(), contact_.size(),
-                static_cast<int>(straight_->size()));
+                static_cast<int>(straight_->size()), lifts(), !absorbing_->empty());
   start_force();
   for (int k = 0; k < boundary_.size(); ++k) boundary_.displacement[k] = u_.data()[boundary_.node[k]];
   std::vector<double> work(scene.body_acceleration != Vector2{} ? model.mass.size() : 0);
@@ -117,7 +123,7 @@ void SlidingBody::start_force() {
   if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
   NodalVector past(comm_, model_.mesh.nodes, true);
   std::copy_n(w_.data(), model_.mesh.nodes.owned, past.data());
-  supports_->start(boundary_, past.data());
+  supports_->start(boundary_, time_step_, past.data());
   for (int i = 0; i < model_.mesh.nodes.owned; ++i)
     for (int axis = 0; axis < 2; ++axis)
       past.data()[i][axis] = u_.data()[i][axis] - time_step_ * past.data()[i][axis];
@@ -139,23 +145,27 @@ void SlidingBody::set_contact_nodes() {
           "', which meets the surface; a side that touches the surface cannot be kept straight, so make it "
           "free along y";
     if (supports_->prescribes(slot, 1)) continue;
-    const double clearance = mesh.nodes.position[i][1] - scene_.surface->height;
+    const Vector2& place = mesh.nodes.position[i];
+    const double height = scene_.surface->height_at(place[0], 0), clearance = place[1] - height;
     const double tolerance = 1e-6 * length[i];  // rounding tilts a straight side by far less
     if (clearance + u_.data()[i][1] < -tolerance)
       fault = format(
           "-surface_height is {:g} m, but the body reaches down to {} m at x = {:g} m; lower the surface or "
           "lift the body with -initial_gap",
-          scene_.surface->height,
-          apart_from(scene_.surface->height, mesh.nodes.position[i][1] + u_.data()[i][1], 6),
+          height, apart_from(height, mesh.nodes.position[i][1] + u_.data()[i][1], 6),
           mesh.nodes.position[i][0]);
     contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
+    contact_places_.push_back(place);
   }
   throw_together(comm_, shared);
   throw_together(comm_, fault);
   const InitialState& initial = scene_.initial;
-  if (initial.pressure != 0 || initial.shear != 0)
-    contact_.start_memory(scene_.friction.stored_strength ? std::abs(initial.shear) : initial.shear,
-                          initial.pressure);
+  if (initial.pressure == 0 && initial.shear == 0) return;
+  for (int k = 0; k < contact_.size(); ++k) {
+    const double shear = initial.shear_at_start().at(contact_places_[k], 0);
+    contact_.memory[k] = {scene_.friction.stored_strength ? std::abs(shear) : shear,
+                          initial.pressure_at_start().at(contact_places_[k], 0)};
+  }
 }
 
 /// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
@@ -163,9 +173,10 @@ void SlidingBody::set_contact_nodes() {
 void SlidingBody::free_motion(const StepCoefficients& step, Observed observed) {
   const bool everything = observed == Observed::everything;
   const BulkPhysics physics = everything ? keeping_acceleration(physics_) : physics_;
-  const BulkArrays arrays{inverse_mass_.data(), previous_force_.data(), u_.data(), w_.data(), a_.data()};
+  const BulkArrays arrays{inverse_mass_.data(),      previous_force_.data(), u_.data(), w_.data(), a_.data(),
+                          body_acceleration_.field()};
   const FreeMotion move(physics, model_.kernel.instructions, arrays, step, scene_.damping,
-                        scene_.body_acceleration, ledger_.bulk_losses(), ledger_.weights(step_ == 0));
+                        body_acceleration_.uniform(), ledger_.bulk_losses(), ledger_.weights(step_ == 0));
   const auto multiply = [&](const auto& moves) {
     std::visit([&](const auto& stiffness) { stiffness.multiply(u_.data(), force_.data(), moves); },
                model_.stiffness);
@@ -200,7 +211,7 @@ void SlidingBody::free_acceleration_at_boundary() {
       if (physics_.stiffness_damping) resistance += lag * (internal - boundary_.internal[k][axis]);
       if (physics_.mass_damping)
         resistance += scene_.damping.mass / inverse_mass_[i] * boundary_.predictor[k][axis];
-      a_.data()[i][axis] = scene_.body_acceleration[axis] - resistance * inverse_mass_[i];
+      a_.data()[i][axis] = body_acceleration_.at(i)[axis] - resistance * inverse_mass_[i];
     }
   }
 }
@@ -224,7 +235,12 @@ void SlidingBody::touch_surface(bool first, const StepCoefficients& step, const 
   const LogEvent::Scope scope(event);
   const double now = static_cast<double>(step_) * time_step_,
                next = static_cast<double>(step_ + 1) * time_step_;
-  surface_travel_ = scene_.surface->travel(next) - scene_.surface->travel(now);
+  surface_travel_ = scene_.surface->travel(now, next);
+  if (lifts())
+    for (int k = 0; k < contact_.size(); ++k) contact_.lift(k, clearance(k, next));
+  if (!absorbing_->empty()) absorbing_->resist(step, boundary_, contact_);
+  if (scene_.friction.mu().of_time())
+    sound_ = follow(scene_.friction, now, contact_places_, first ? start_law_ : law_) && sound_;
   const ContactStep contact{step, surface_travel_, scene_.surface->velocity(now)};
   std::visit(
       [&](const auto& law) {
@@ -237,6 +253,11 @@ void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const 
   static const LogEvent event("Ledger");
   const LogEvent::Scope scope(event);
   ledger_.add(boundary_, contact_, moving, surface_travel_);
+  if (lifts()) ledger_.add_lift(contact_);
+  if (!absorbing_->empty()) {
+    absorbing_->measure(step, boundary_, moving);
+    ledger_.add_absorbed(boundary_, moving);
+  }
   if (!straight_->empty()) ledger_.add_plates(*straight_);
   if (physics_.keeps_force())
     ledger_.correct_bulk(physics_, scene_.damping, step, boundary_, contact_, moving, force_.data(), first);
@@ -252,6 +273,7 @@ void SlidingBody::advance(Observed observed) {
   const NodalState moving = state(observed != Observed::nothing || physics_.keeps_acceleration);
 
   remember(observed, moving);
+  if (body_acceleration_.of_time()) sound_ = body_acceleration_.follow(now) && sound_;
   {
     static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
@@ -266,9 +288,10 @@ void SlidingBody::advance(Observed observed) {
     static const LogEvent event("LoadsSupports");
     const LogEvent::Scope scope(event);
     if (!loads_.empty()) loads_.apply(now, step, boundary_, moving);
+    if (!absorbing_->empty()) absorbing_->apply(step, boundary_, moving);
     if (!supports_->empty()) supports_->apply(next, step, boundary_, moving);
     for (const auto& side : *straight_)
-      side->apply(now, step, scene_.damping, scene_.body_acceleration[1], force_.data(), boundary_, moving);
+      side->apply(now, step, scene_.damping, body_acceleration_, force_.data(), boundary_, moving);
   }
   if (scene_.surface) touch_surface(first, step, moving);
   {
@@ -277,6 +300,7 @@ void SlidingBody::advance(Observed observed) {
     u_.begin_update();
   }
   add_to_ledger(first, step, moving);
+  if (body_acceleration_.of_time()) body_acceleration_.add_work(moving, next);
   if (observed != Observed::nothing) observe_boundary(step, observed);
   ++step_;
   if (first) {
@@ -291,10 +315,9 @@ void SlidingBody::observe_nodes(const StepCoefficients& step, int begin, int end
   const std::size_t moving = moving_things();
   double *const kinetic = terms_.data(), *const correction = kinetic + moving,
                 *const strain = correction + moving, *const gravity = strain + model_.mass.size();
-  const auto from = [begin](const Vector2* rows) { return rows[begin].data(); };
-  const SeenNodes seen{from(w_.data()),     from(a_.data()),     from(kept_.data()),
-                       from(force_.data()), &model_.mass[begin], v_.data()[begin].data(),
-                       kinetic + begin,     correction + begin,  strain + begin};
+  const SeenNodes seen{w_.data() + begin,     a_.data() + begin,   kept_.data() + begin,
+                       force_.data() + begin, &model_.mass[begin], v_.data() + begin,
+                       kinetic + begin,       correction + begin,  strain + begin};
   // v_n = w_n + velocity a_n = w_{n+1} − back a_n
   see(seen, end - begin, step.predictor - step.velocity, 0.25 * time_step_ * time_step_ * scene_.beta2,
       model_.kernel.instructions);
@@ -324,8 +347,23 @@ Vector2 SlidingBody::force_on_support(int slot) const {
 }
 
 double SlidingBody::gravity_work(int node, const Vector2& displacement) const {
-  const Vector2& gravity = scene_.body_acceleration;
-  return model_.mass[node] * (gravity[0] * displacement[0] + gravity[1] * displacement[1]);
+  return body_acceleration_.work(node, model_.mass[node], displacement);
+}
+
+bool SlidingBody::lifts() const {
+  return scene_.surface && scene_.surface->height_formula && scene_.surface->height_formula->of_time();
+}
+
+double SlidingBody::clearance(int k, double time) const {
+  return contact_places_[k][1] - scene_.surface->height_at(contact_places_[k][0], time);
+}
+
+/// Collective.
+bool SlidingBody::formulas_sound() const {
+  if (!formulas_of_time_) return true;
+  int sound = sound_ && loads_.sound() && supports_->sound();
+  MPI_Allreduce(MPI_IN_PLACE, &sound, 1, MPI_INT, MPI_MIN, comm_);
+  return sound != 0;
 }
 
 /// Nodes and plates.

@@ -38,6 +38,7 @@ StraightSide::StraightSide(MPI_Comm comm, const Mesh& mesh, const BoundaryCondit
     : boundary_(condition.boundary),
       force_(condition.plate_force),
       ramp_(condition.ramp),
+      formula_(condition.force_formula),
       tilts_(condition.straight == BoundaryCondition::Straight::tilting) {
   const Boundary& boundary = *mesh.find_boundary(condition.boundary);
   const auto ends = extent(comm, boundary);
@@ -108,18 +109,22 @@ PlateMotion StraightSide::gather(const std::vector<double>& mine) {
   return sum;
 }
 
-void StraightSide::apply(double time, const StepCoefficients& step, const Damping& damping, double gravity,
-                         const Vector2* force, BoundaryNodes& nodes, const NodalState& state) {
+void StraightSide::apply(double time, const StepCoefficients& step, const Damping& damping,
+                         const BodyAcceleration& gravity, const Vector2* force, BoundaryNodes& nodes,
+                         const NodalState& state) {
   if (comm_ == MPI_COMM_NULL) return;
   const double lag = damping.stiffness / step.time_step;
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const int slot = members_[k].slot;
     const double internal = force[nodes.node[slot]][1], mass = nodes.mass[slot];
-    mine_[k] = nodes.load[slot][1] + mass * (gravity - damping.mass * nodes.predictor[slot][1]) - internal -
+    mine_[k] = nodes.load[slot][1] +
+               mass * (gravity.at(nodes.node[slot])[1] - damping.mass * nodes.predictor[slot][1]) - internal -
                lag * (internal - nodes.internal[slot][1]);
   }
   PlateMotion acting = gather(mine_);
-  acting[0] += force_ * cosine_ramp(time, ramp_);
+  double level = cosine_ramp(time, ramp_);
+  if (formula_) level *= (*formula_)(time);
+  acting[0] += force_ * level;
   const PlateMotion a = product(inverse_, acting), old_a = motion_.acceleration, past = motion_.increment;
   motion_.before = motion_.place;
   for (std::size_t q = 0; q < a.size(); ++q) {

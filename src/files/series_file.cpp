@@ -18,9 +18,10 @@ namespace {
 constexpr std::size_t chunk_bytes = 16384;  ///< small, because every chunk is written whole, rows or no rows
 constexpr std::size_t header_bytes = 2800;  ///< of a growing dataset: header, attributes, index, its group
 constexpr std::size_t constant_bytes = 1800;  ///< of one that does not grow
-constexpr std::size_t batch_bytes = 8 << 20;  ///< a batch this large does not wait for the clock
-constexpr std::size_t index_bytes = 4096;     ///< what HDF5's index of the chunks may grow by
-constexpr double writing_share = 0.02;  ///< batches are spaced so that writing takes no more of the time
+constexpr std::size_t batch_bytes =
+    1 << 20;  ///< a batch this large, which a cache holds, does not wait for the clock
+constexpr std::size_t index_bytes = 4096;  ///< what HDF5's index of the chunks may grow by
+constexpr double writing_share = 0.02;     ///< batches are spaced so that writing takes no more of the time
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

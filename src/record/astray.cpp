@@ -59,10 +59,10 @@ Extreme most_displaced(const SlidingBody& body) {
 double rounding_of_balance(const SlidingBody& body) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon(), digits = 8;
   const double steps = static_cast<double>(body.steps_done());
-  const Vector2& gravity = body.scene().body_acceleration;
   double sum = 0;
   for (int i = 0; i < body.model().mesh.nodes.owned; ++i)
     for (int axis = 0; axis < 2; ++axis) {
+      const Vector2 gravity = body.body_acceleration(i);
       const double mass = body.model().mass[i], moved = std::abs(body.displacement_n()[i][axis]),
                    force = std::abs(body.internal_force_n()[i][axis]) + mass * std::abs(gravity[axis]);
       sum += epsilon * moved * (steps * mass * std::abs(body.acceleration_n()[i][axis]) + digits * force);

@@ -66,7 +66,7 @@ Observation Observer::observe(bool bulk) const {
     seen.momentum = body_.momentum();
     observe_plates(seen);
   }
-  observe_boundaries(seen);
+  if (bulk) observe_boundaries(seen);
   if (body_.scene().surface) observe_contact(seen);
   seen.friction = std::numeric_limits<double>::quiet_NaN();
   if (measured_ >= 0 && !seen.boundaries.empty() && seen.boundaries[measured_].normal != 0)
@@ -76,6 +76,7 @@ Observation Observer::observe(bool bulk) const {
 
 void Observer::observe_boundaries(Observation& seen) const {
   std::vector<Vector2> mine;
+  mine.reserve(static_cast<std::size_t>(body_.boundary_nodes().size()));
   for (int k = 0; k < body_.boundary_nodes().size(); ++k) mine.push_back(body_.force_on_support(k));
   const auto all = boundary_gather_({mine.empty() ? nullptr : mine[0].data(), 2 * mine.size()}, 2);
   if (all.empty()) return;
@@ -111,6 +112,7 @@ void Observer::observe_contact(Observation& seen) const {
   const ContactNodes& contact = body_.contact();
   constexpr int width = 9;
   std::vector<double> mine;
+  mine.reserve(static_cast<std::size_t>(contact.size()) * width);
   for (int k = 0; k < contact.size(); ++k) {
     const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity_n()[contact.node[k]];
     mine.insert(mine.end(),
@@ -120,6 +122,7 @@ void Observer::observe_contact(Observation& seen) const {
   const auto all = contact_gather_(mine, width);
   const double surface = body_.surface_velocity();
   double total = 0;
+  seen.contact.reserve(along_x_.size());
   for (std::size_t k = 0; k < along_x_.size(); ++k) {
     const double *row = &all[static_cast<std::size_t>(along_x_[k]) * width], length = contact_length_[k];
     const ContactReading reading{{row[0], row[1]},

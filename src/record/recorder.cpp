@@ -239,6 +239,16 @@ void Recorder::record_cells(long n) {
 
 void Recorder::check(const Observation& seen) const {
   const Energy& e = seen.energy;
+  if (!body_.formulas_sound()) {
+    std::string names;
+    for (const std::string& name : unsteady_formulas(body_.scene()))
+      names += (names.empty() ? "-" : ", -") + name;
+    stop(format(
+             "step {} (t = {:g} s): a formula has made what is no number, or none that its option may have: "
+             "one of {}",
+             seen.step, seen.time, names),
+         "See what it makes at all times up to that one");
+  }
   const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
   if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
   if (finite && std::abs(e.residual) <= rounding_of_balance(body_)) return;

@@ -182,6 +182,10 @@ ROWS = {
     "material_file": Row([Answer({**UNNAMED, "OPTION": "four_times.yaml"}, arrival, less)],
                          [Idle({"OPTION": "four_times.yaml"}, ALL_NAMED)]),
 
+    # What formulas make: test_formulas.py.
+    "parameters_<parameter>": Row([Answer({"OPTION": 4}, last("energy/surface_drive"), more,
+                                          base={"surface_speed": "v", "OPTION": 2})],
+                                  [Idle({"OPTION": 2}, "has no effect in this scene")]),
     "body_acceleration": Row([Answer({"OPTION": "0,-1e6"}, mean("surface/normal_force"), more)], ALWAYS),
     "damping_mass": Row([Answer({"OPTION": 1e5}, last("energy/damping"), more)], ALWAYS),
     "damping_stiffness": Row([Answer({"OPTION": 2e-9}, last("energy/damping"), more)], ALWAYS),
@@ -212,7 +216,15 @@ ROWS = {
     "boundary_<boundary>_mass": Row([Answer({"OPTION": 1}, last("energy/loads"), less, base=PLATE)],
                                     [Idle({"OPTION": 1}, NOT_STRAIGHT)]),
 
+    # What it does: test_open_end.py.
+    "boundary_<boundary>_absorbing": Row(
+        [Answer({"OPTION": "true"}, last("energy/radiated"), more, base={**LOADED, "boundary_top_x": None})],
+        [Idle({"OPTION": "true"}, "on a side whose motion is prescribed")]),
+
     "initial_velocity": Row([Answer({"OPTION": "0,-0.5"}, mean("surface/normal_force"), more)], ALWAYS),
+    "initial_displacement": Row([Answer({"OPTION": "0,-1e-7", "surface_height": -1e-6}, first("energy/strain"), same),
+                                 Answer({"OPTION": "1e-7*y/H,0"}, first("energy/strain"),
+                                        becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
     "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),
     "initial_sine_amplitude": Row([Answer({"OPTION": 0.2}, M_X, becomes(-0.2), base=SINE)], ALWAYS),
     "initial_sine_wavelength": Row([Answer({"OPTION": 1.5 * SIDE}, M_X, becomes(0.1 * np.cos(2 * np.pi / 3)),

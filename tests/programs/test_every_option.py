@@ -20,9 +20,9 @@ AT_ONCE = 2  # starting and ending a parallel job is mostly waiting
 
 def scene_of(changes, option, base=None):
     """SCENE with changes, `OPTION` among them named."""
-    name = option.replace("<region>", "block").replace("<boundary>", "top")
-    named = {name if key == "OPTION" else key: value for key, value in changes.items()}
-    return {**SCENE, **(base or {}), **named}
+    name = option.replace("<region>", "block").replace("<boundary>", "top").replace("<parameter>", "v")
+    named = {name if key == "OPTION" else key: value for key, value in {**(base or {}), **changes}.items()}
+    return {**SCENE, **named}
 
 
 class Run:

@@ -13,6 +13,7 @@ NOT_DRAWN = {
     "restart": "the soak's own", "output_folder": "the soak's own", "progress": "for terminals",
     "checkpoint_minutes": "runs last seconds", "time_wall": "the soak's own",
     "material_file": "drawn as material_<region>_file",
+    "parameters_<parameter>": "of formulas, which are not drawn",
 }
 
 
@@ -145,6 +146,8 @@ class Scene:
                 self.number(f"boundary_{side}_ramp", 2e-6)
             elif kind < 0.3:
                 self.number(f"boundary_{side}_shear", 1e6)
+            elif kind < 0.4:
+                self.put(f"boundary_{side}_absorbing", "true")
 
     def surface(self):
         self.rubs = self.often(0.85)
@@ -182,6 +185,8 @@ class Scene:
             self.put("initial_velocity", [self.entry("initial_velocity").number(self.chance, 0.5) for _ in range(2)])
         if self.often(0.15) and not self.periodic:
             self.number("initial_rotation", 100)
+        if self.often(0.15):
+            self.put("initial_displacement", [rounded(self.chance.uniform(-1e-8, 1e-8)), rounded(self.chance.uniform(0, 1e-8))])
         if self.often(0.2):
             self.number("initial_sine_amplitude", 0.1)
             self.number("initial_sine_wavelength", SIDE)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "bodies.hpp"
 #include "slipscale/base/parallel.hpp"
@@ -180,6 +181,28 @@ TEST(EdgeRounding, MakesEqualCellsEqual) {
     EXPECT_NEAR(std::abs(first[2][0]), block.width / block.nx, noise);
     EXPECT_NEAR(std::abs(first[2][1]), block.height / block.ny, noise);
     for (int cell = 0; cell < mesh.cells.size(); ++cell) EXPECT_EQ(mesh.shape_of(cell), first) << cell;
+  }
+}
+
+std::set<std::array<Vector2, 4>> shapes_in(const Mesh& mesh) {
+  std::set<std::array<Vector2, 4>> shapes;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) shapes.insert(mesh.shape_of(cell));
+  return shapes;
+}
+
+/// Nodes that a mesh generator found to a few digits less than a number has are those of a grid all the same;
+/// a mesh whose cells differ keeps all its digits.
+TEST(EdgeRounding, SeesTheGridBehindTheNoiseOfItsNodes) {
+  for (const Shape shape : {Shape::quadrilaterals, Shape::triangles}) {
+    Block block = grid(shape);
+    const std::size_t kinds = shapes_in(block_mesh(block)).size();
+    block.distortion = 4e-10;
+    const Mesh noisy = block_mesh(block);
+    EXPECT_LT(noisy.edge_rounding.quantum, 1e-7 * noisy.shortest_edge);
+    EXPECT_EQ(shapes_in(noisy).size(), kinds);
+    block.distortion = 0.1;
+    const Mesh distorted = block_mesh(block);
+    EXPECT_LT(distorted.edge_rounding.quantum, 1e-9 * distorted.shortest_edge);
   }
 }
 

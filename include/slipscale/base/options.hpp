@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "slipscale/base/formula.hpp"
+
 namespace slipscale {
 
 enum class Kind { real, integer, text, flag, reals };
@@ -18,12 +20,14 @@ struct Range {
   bool (*accepts)(double value) = nullptr;  ///< numbers: the test, applied to each number of a list
   std::vector<std::string> words = {};      ///< texts: the words to choose from
   bool words_or_number = false;             ///< texts: a number that `accepts` allows will do as well
+  std::string variables = {};               ///< numbers: of which of x, y, t a formula may be in their place
 };
 
 namespace range {
 extern const Range any, positive, non_negative, at_least_one, unit;           // unit: 0 < x <= 1
 Range one_of(std::vector<std::string> words);                                 // exactly one of the words
 Range one_of_or_number(std::vector<std::string> words, const Range& number);  // `auto` or seconds, say
+Range or_formula(Range range, std::string variables);  // in place of a number, see Options::quantity
 }  // namespace range
 
 /// Fallbacks that are not values.
@@ -49,6 +53,9 @@ Schema operator+(Schema left, const Schema& right);
 /// of a group of options goes through, so that one declared later is not forgotten.
 std::vector<std::string> names_in(const Schema& schema, const std::string& beginning = "",
                                   const std::string& filling = "");
+
+/// The parameters of formulas.
+Schema parameter_schema();
 
 /// Where the user wrote an option. The later place has the last word: the scene files one after the other,
 /// then the command line.
@@ -107,6 +114,19 @@ class Options {
   std::vector<double> reals(const std::string& name) const;  ///< empty when absent
   bool given(const std::string& name) const;                 ///< on the command line or in a file
 
+  /// What stands where a number or a formula may stand. A formula of constants alone is the number that it
+  /// makes. Throws UserError for a formula with a fault, see Formula, or with a value out of range.
+  Quantity quantity(const std::string& name) const;
+  std::vector<Quantity> quantities(const std::string& name) const;  ///< of a list
+  /// The value of a formula is of the option's range: the sentence that says it is not, or empty. For those
+  /// who evaluate one.
+  std::string outside(const std::string& name, const Quantity& quantity, double value) const;
+  /// Numbers that formulas may name, beside the parameters that the user gave. Throws UserError for a
+  /// parameter whose name is taken or is none. Before the first formula is read.
+  void know_constants(const std::map<std::string, double>& constants);
+  /// Takes the parameters of formulas as read, for a program that leaves the formulas aside.
+  void pass_over_parameters() const;
+
   /// Every option that the user gave, declared or not, but none of PETSc's own; in their order.
   const std::vector<std::string>& typed() const { return typed_; }
 
@@ -145,6 +165,8 @@ class Options {
   const Written* find(const std::string& name) const;
   std::optional<std::string> value(const std::string& name) const;
   std::string needed(const std::string& name) const;
+  Quantity quantity_of(const Option& option, const std::string& name, const std::string& text) const;
+  std::vector<std::string> parameters() const;
   void take(const Written& entry);
   void tell_of(const std::vector<Written>& collected, const std::vector<Written>& written);
   void check(const Written& entry) const;
@@ -161,6 +183,7 @@ class Options {
   std::map<std::string, std::vector<std::string>> names_;  ///< placeholder -> what may stand for it
   std::map<std::string, Written> given_;                   ///< by name: the entry that has the last word
   std::vector<std::string> typed_;                         ///< every name in `given_`, in its order
+  std::map<std::string, double> constants_;                ///< of formulas
   mutable std::set<std::string> touched_;                  ///< the names that some reader knows of
   mutable std::map<std::string, std::string> effective_;
   mutable std::set<std::string> aside_;

@@ -25,11 +25,12 @@ struct LossWeights {
 
 /// What the free motion of a node needs; arrays by local node.
 struct BulkArrays {
-  const double* inverse_mass;     ///< m/kg
-  const Vector2* previous_force;  ///< K u_{n−1}, N/m; read only where the physics needs it
-  Vector2* displacement;          ///< u, m
-  Vector2* predictor;             ///< w, m/s
-  Vector2* acceleration;          ///< a, m/s²; touched only where the physics keeps it
+  const double* inverse_mass;        ///< m/kg
+  const Vector2* previous_force;     ///< K u_{n−1}, N/m; read only where the physics needs it
+  Vector2* displacement;             ///< u, m
+  Vector2* predictor;                ///< w, m/s
+  Vector2* acceleration;             ///< a, m/s²; touched only where the physics keeps it
+  const Vector2* gravity = nullptr;  ///< m/s²; read only where it varies from node to node
 };
 
 /// The bulk physics that a scene can have; a scene without it does not pay for it.
@@ -37,6 +38,7 @@ struct BulkPhysics {
   bool mass_damping = false, stiffness_damping = false, numerical_dissipation = false;
   bool keeps_acceleration =
       false;  ///< for an observed step, for the ledger when β2 > ½, for a law that asks the slip rate
+  bool graded_gravity = false;  ///< the body acceleration varies from node to node
   constexpr bool keeps_force() const { return mass_damping || stiffness_damping || numerical_dissipation; }
 };
 
@@ -84,13 +86,12 @@ class FreeMotion {
   const FreeMotionState state_;
 };
 
-/// What is seen of nodes once they have moved, [nodes] from the first of them on; rows of vectors as pairs of
-/// numbers.
+/// What is seen of nodes once they have moved, [nodes] from the first of them on.
 struct SeenNodes {
-  const double *predictor, *acceleration;  ///< w_{n+1}, m/s; a_n, m/s²
-  const double *displacement, *force;      ///< u_n, m; K u_n, N/m
-  const double* mass;                      ///< kg/m
-  double* velocity;                        ///< v_n, m/s: made
+  const Vector2 *predictor, *acceleration;  ///< w_{n+1}, m/s; a_n, m/s²
+  const Vector2 *displacement, *force;      ///< u_n, m; K u_n, N/m
+  const double* mass;                       ///< kg/m
+  Vector2* velocity;                        ///< v_n, m/s: made
   double *kinetic, *correction, *strain;  ///< ½vᵀMv, (Δt²β2/4) aᵀMa, ½uᵀKu of each node, J/m: made
 };
 

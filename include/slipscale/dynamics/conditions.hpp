@@ -24,7 +24,12 @@ struct BoundaryCondition {
   Straight straight = Straight::no;
   double plate_force = 0;  ///< on a straight side, along +y, N per metre of depth
   double plate_mass = 0;   ///< of what keeps it straight, kg per metre of depth
+  bool absorbing = false;  ///< waves leave through it, see AbsorbingSides
+  // Where a formula stands, the value is that number (1, of a force ±1) times it:
+  std::array<SharedFormula, 2> displacement_formula{};
+  SharedFormula pressure_formula{}, shear_formula{}, force_formula{};
 
+  Quantity imposed(int axis) const { return {*displacement[axis], displacement_formula[axis]}; }
   bool is_straight() const { return straight != Straight::no; }
 };
 
@@ -46,13 +51,20 @@ struct InitialState {
   double gap = 0;         ///< lifts the body, m
   double pressure = 0;    ///< uniform state u_y = −p y/C22, Pa
   double shear = 0;       ///< uniform state u_x = τ(H − y)/C66, Pa
+  // Where a formula stands, the value is that number, 1, times it:
+  std::array<SharedFormula, 2> velocity_formula{};
+  SharedFormula pressure_formula{}, shear_formula{};
+  std::array<Quantity, 2> displacement{};  ///< added to all that, m
+
+  Quantity pressure_at_start() const { return {pressure, pressure_formula}; }
+  Quantity shear_at_start() const { return {shear, shear_formula}; }
 };
 
 Schema initial_schema();
-InitialState read_initial(const Options& options);
+InitialState read_initial(const Options& options, const Mesh& mesh);
 
 /// Sets u [all local nodes] and v [owned nodes]. Throws UserError for a uniform state in a body that is not
-/// uniform, and for a rotation of a periodic one.
+/// uniform, for a rotation of a periodic one, and for a formula that makes no number at a node. Collective.
 void set_initial(const InitialState& initial, const Mesh& mesh, const std::vector<Material>& materials,
                  Vector2* displacement, Vector2* velocity);
 

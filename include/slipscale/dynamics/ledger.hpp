@@ -25,6 +25,7 @@ struct Energy {
   double friction_heat = 0;       ///< ∫ τ(V − u̇_x), see below
   double impact_loss = 0;         ///< lost where nodes meet the surface
   double damping = 0;             ///< lost to bulk damping
+  double radiated = 0;            ///< taken by absorbing sides
   double scheme_dissipation = 0;  ///< lost to the time scheme, β2 > ½
   double residual = 0;            ///< what the balance misses: rounding
   double flowed = 0;              ///< sum of the sizes of all the terms: the scale of the residual
@@ -39,7 +40,7 @@ struct EnergyTerm {
   const char* description;
 };
 
-inline constexpr std::array<EnergyTerm, 12> energy_terms{{
+inline constexpr std::array<EnergyTerm, 13> energy_terms{{
     {"kinetic", &Energy::kinetic, EnergyTerm::Role::stored, "kinetic energy, with the scheme's correction"},
     {"strain", &Energy::strain, EnergyTerm::Role::stored, "strain energy"},
     {"loads", &Energy::loads, EnergyTerm::Role::supplied, "work of the tractions and forces since t = 0"},
@@ -53,6 +54,8 @@ inline constexpr std::array<EnergyTerm, 12> energy_terms{{
     {"impact_loss", &Energy::impact_loss, EnergyTerm::Role::lost,
      "energy lost where nodes met the surface since t = 0"},
     {"damping", &Energy::damping, EnergyTerm::Role::lost, "energy lost to bulk damping since t = 0"},
+    {"radiated", &Energy::radiated, EnergyTerm::Role::lost,
+     "energy that left through absorbing sides since t = 0"},
     {"scheme_dissipation", &Energy::scheme_dissipation, EnergyTerm::Role::lost,
      "energy lost to the time scheme since t = 0"},
     {"residual", &Energy::residual, EnergyTerm::Role::check, "what the balance misses"},
@@ -87,7 +90,8 @@ class EnergyLedger {
  public:
   /// Of a scene without boundary nodes and contact, until `start` tells what there is.
   EnergyLedger(double beta2, double time_step) : beta2_(beta2), time_step_(time_step) {}
-  void start(const BulkPhysics& physics, int owned_nodes, int boundary_nodes, int contact_nodes, int plates);
+  void start(const BulkPhysics& physics, int owned_nodes, int boundary_nodes, int contact_nodes, int plates,
+             bool lifts, bool absorbs);
 
   /// Closes the step n−1 → n and opens n → n+1, when all forces at t_n and u_{n+1} are known.
   /// `surface_travel` is the surface's path over the coming step, m.
@@ -102,6 +106,12 @@ class EnergyLedger {
   void correct_bulk(const BulkPhysics& physics, const Damping& damping, const StepCoefficients& step,
                     const BoundaryNodes& nodes, const ContactNodes& contact, const NodalState& state,
                     const Vector2* force, bool first);
+
+  /// Where the surface moves up and down: its work on the body is the motor's, and no loss at the nodes.
+  void add_lift(const ContactNodes& contact);
+
+  /// What the dampers of absorbing sides have taken.
+  void add_absorbed(const BoundaryNodes& nodes, const NodalState& state);
 
   /// The same for the mass of the plates on straight sides, which are part of what moves: their pushes on the
   /// nodes are among the loads, and with their own inertia the loads become the forces on the plates.
@@ -124,8 +134,11 @@ class EnergyLedger {
  private:
   double beta2_, time_step_;
   BulkPhysics physics_;
+  bool lifts_ = false, absorbs_ = false;           ///< of the scene, the same on all ranks
   NodalWork loads_, supports_;                     ///< by slot
   NodalWork drive_, heat_, impact_;                ///< by contact node
+  NodalWork lift_;                                 ///< the same; empty where the surface does not lift
+  NodalWork radiated_;                             ///< by slot; empty where no side absorbs
   NodalWork plates_;                               ///< by side, on the rank that answers for it
   LargeArray<Vector2> damping_, coming_, scheme_;  ///< by owned node, see BulkLosses
   mutable std::vector<double> bulk_done_;  ///< their sums by node; kept so that a row allocates little

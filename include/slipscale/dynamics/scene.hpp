@@ -6,6 +6,7 @@
 
 #include "slipscale/contact/law.hpp"
 #include "slipscale/contact/surface.hpp"
+#include "slipscale/dynamics/body_acceleration.hpp"
 #include "slipscale/dynamics/conditions.hpp"
 #include "slipscale/dynamics/model.hpp"
 #include "slipscale/dynamics/scheme.hpp"
@@ -16,12 +17,15 @@ namespace slipscale {
 struct Scene {
   std::vector<BoundaryCondition> conditions;
   InitialState initial;
-  Vector2 body_acceleration{};  ///< m/s²
+  Vector2 body_acceleration{};  ///< m/s²; 1 where a formula stands
+  std::array<SharedFormula, 2> body_acceleration_formula{};
   Damping damping;
   double beta2 = 0.5;
   std::optional<Surface> surface;
   FrictionChoice friction;
   std::string measured;  ///< boundary where the load is measured; empty: none
+
+  BodyAccelerationChoice acceleration() const { return {body_acceleration, body_acceleration_formula}; }
 };
 
 /// When the run ends and how it gets there.
@@ -32,7 +36,11 @@ struct TimeChoice {
 };
 
 Schema scene_schema();
+/// Collective; so are the checks of formulas in it.
 Scene read_scene(const Options& options, const Mesh& mesh);
+/// The options of a scene whose values vary in a way that steady sliding has no place for: everything but
+/// tractions that vary along a boundary, and what belongs to the start.
+std::vector<std::string> unsteady_formulas(const Scene& scene);
 TimeChoice read_time(const Options& options);
 Model::Storage read_storage(const Options& options);
 /// Throws UserError for instructions that this processor lacks.

@@ -9,6 +9,7 @@
 
 #include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
+#include "slipscale/dynamics/absorbing_sides.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/ledger.hpp"
 #include "slipscale/dynamics/scene.hpp"
@@ -88,6 +89,11 @@ class SlidingBody {
   std::vector<StateGroup> state();
   void resume();
 
+  /// Body acceleration at t_n at an owned node, m/s².
+  Vector2 body_acceleration(int node) const { return body_acceleration_.at(node); }
+  /// False once a formula of time has made what is no number, or not one in its option's range. Collective.
+  bool formulas_sound() const;
+
   /// Whether any contact node was closed at any step so far. Collective.
   bool has_touched() const;
 
@@ -102,6 +108,8 @@ class SlidingBody {
 
   void start_force();
   void set_contact_nodes();
+  bool lifts() const;                          ///< the surface moves up and down
+  double clearance(int k, double time) const;  ///< of contact node k undeformed, m
   double gravity_work(int node, const Vector2& displacement) const;
   using BulkTerms = std::array<std::span<const double>, 4>;
   std::size_t moving_things() const;
@@ -123,15 +131,20 @@ class SlidingBody {
   Loads loads_;
   std::unique_ptr<Supports> supports_;  ///< made once the initial displacement is known
   std::unique_ptr<StraightSides> straight_;
+  std::unique_ptr<AbsorbingSides> absorbing_;
   ContactNodes contact_;
-  FrictionLaw law_;
-  FrictionLaw start_law_;  ///< at t = 0, where no time has passed since the memory
+  std::vector<Vector2> contact_places_;  ///< of the contact nodes, undeformed, m
+  FrictionLaws law_;
+  FrictionLaws start_law_;  ///< at t = 0, where no time has passed since the memory
+  BodyAcceleration body_acceleration_;
+  const bool formulas_of_time_;  ///< whether there may be any
   BulkPhysics physics_;
   EnergyLedger ledger_;
   double start_gravity_ = 0;          ///< Σ m g·u_0 of all ranks, J/m
   double start_energy_ = 0;           ///< Ê at t = 0 of all ranks, J/m
   mutable LargeArray<double> terms_;  ///< of sums over nodes; kept so that a row allocates nothing large
   double surface_travel_ = 0;
+  bool sound_ = true;  ///< formulas, apart from those of loads and supports
   long step_ = 0;
   /// The run as a whole, for a checkpoint.
   struct Carried {

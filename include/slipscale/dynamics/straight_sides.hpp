@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slipscale/base/state_group.hpp"
+#include "slipscale/dynamics/body_acceleration.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
 #include "slipscale/dynamics/conditions.hpp"
 #include "slipscale/dynamics/scheme.hpp"
@@ -34,8 +35,9 @@ class StraightSide {
 
   /// One step from t_n = `time`: moves the side, and adds the plate's push to `nodes.load`. `force` is K u_n.
   /// One small gather among the ranks that hold nodes of the side; summed in the order of the nodes' numbers.
-  void apply(double time, const StepCoefficients& step, const Damping& damping, double gravity,
-             const Vector2* force, BoundaryNodes& nodes, const NodalState& state);
+  void apply(double time, const StepCoefficients& step, const Damping& damping,
+             const BodyAcceleration& gravity, const Vector2* force, BoundaryNodes& nodes,
+             const NodalState& state);
 
   /// What the plate's own mass adds to the energy ledger; on one rank, zero on the others.
   struct Inertia {
@@ -69,6 +71,7 @@ class StraightSide {
 
   const std::string boundary_;
   const double force_, ramp_;
+  const SharedFormula formula_;  ///< of the force, as a factor
   const bool tilts_;
   std::vector<Member> members_;
   PlateMotion own_{};                ///< mass and moment of inertia of the plate, kg/m and kg m

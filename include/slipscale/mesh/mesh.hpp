@@ -71,7 +71,7 @@ struct Cells {
 };
 
 /// Edges of a grid that were meant to be equal differ by the rounding of the coordinates, which depends on
-/// where they lie. Rounded to multiples of `quantum`, off by `phase`, a few of the last digits that
+/// where they lie. Rounded to multiples of `quantum`, off by `phase`, the last digits that
 /// coordinates of this size have, they are equal to the last bit; the phase keeps the mesh's edges off the
 /// limits between two multiples.
 struct EdgeRounding {

@@ -64,8 +64,8 @@ class Observer {
   /// `momentum`: of body and plates, at the cost of a sum over the nodes and the ranks for each observation.
   Observer(const SlidingBody& body, bool momentum);
 
-  /// State at t_n of an observed step; energies and momenta, which are sums over the bulk, only where they
-  /// are asked for. Collective.
+  /// State at t_n of an observed step; forces on the boundaries, and energies and momenta, which are sums
+  /// over the bulk, only where they are asked for. Collective.
   Observation observe(bool bulk = true) const;
 
   const std::vector<double>& contact_x() const { return contact_x_; }              ///< rank 0, ascending, m

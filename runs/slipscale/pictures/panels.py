@@ -27,6 +27,7 @@ ENERGY_TERMS = {  # term: (what the legend calls it, colour, line style)
     "loads": ("loads", SKY, "-"),
     "supports": ("supports", SKY, "--"),
     "body_force": ("body force", SKY, ":"),
+    "radiated": ("radiated", GREEN, "--"),
     "scheme_dissipation": ("scheme dissipation", GREEN, ":"),
     "strain": ("strain energy", BLUE, "-"),
     "kinetic": ("kinetic energy", ORANGE, "-"),
