@@ -93,10 +93,10 @@ void modes(Options& options) {
 
   const SteadySliding state = steady_sliding(comm, model, scene);
   print_notes(state.notes);
-  ModesBasis basis = basis_of_real_modes(state, choice);
+  auto notes = remarks_on_modes(comm, model, scene);
+  ModesBasis basis = basis_of_real_modes(state, choice, reach_of_start(notes));
   options.refuse_unknown();
   ModesReport report = find_sliding_modes(basis, state, scene, choice, step);
-  auto notes = remarks_on_modes(comm, model, scene);
   report.search.notes.insert(report.search.notes.begin(), notes.begin(), notes.end());
   for (const SweepChoice& sweep : choice.sweeps) {
     report.sweeps.push_back(

@@ -20,7 +20,7 @@ constexpr double of_column = 1e-5;          ///< of a new direction: what must b
 constexpr double same = 1e-6;               ///< exponents that are one, relative
 constexpr double parallel = 0.9999;         ///< cosine of vectors that are one
 constexpr std::size_t at_once = 20;         ///< modes whose residuals are held in memory
-constexpr Eigen::Index most_vectors = 250;  ///< of a companion matrix, which has three times as many rows
+constexpr Eigen::Index most_vectors = 400;  ///< of a companion matrix, which has three times as many rows
 
 bool is_number(const SlidingMode& mode) { return std::isfinite(std::norm(mode.exponent)); }
 
@@ -110,9 +110,9 @@ struct Place {
   ReducedProblem problem;
 };
 
-Place place_of(const ReducedProblem& problem, const std::vector<SlidingMode>& known) {
+Place place_of(const ReducedProblem& problem, const std::vector<SlidingMode>& known, bool whole) {
   const Eigen::Index size = problem.size();
-  if (size <= most_vectors) return {{}, problem};
+  if (whole || size <= most_vectors) return {{}, problem};
   const Eigen::Index of_known = 2 * std::min(static_cast<Eigen::Index>(known.size()), most_vectors / 4);
   Eigen::MatrixXd vectors = Eigen::MatrixXd::Zero(size, most_vectors);
   for (Eigen::Index k = 0; k < of_known; k += 2) {
@@ -136,20 +136,20 @@ void share(MPI_Comm comm, Eigen::MatrixXd& matrix) {
 }
 
 /// Modes that are looked for, growth descending, those that are not yet known: of a large basis with their
-/// vectors. Found by the first rank.
+/// vectors. `whole`: of the basis as it is, which a start has to be. Found by the first rank.
 struct Candidates {
   std::vector<SlidingMode> fresh;
   std::size_t in_window = 0;
 };
 
 Candidates candidates(MPI_Comm comm, const ReducedProblem& problem, const SlidingLaw& law, double to,
-                      const std::vector<SlidingMode>& known, std::size_t looked_at) {
+                      const std::vector<SlidingMode>& known, std::size_t looked_at, bool whole) {
   static const LogEvent event("ModesCompanion");
   const LogEvent::Scope scope(event);
   Place place;
   std::vector<Complex> found;
   if (is_root(comm)) {
-    place = place_of(problem, known);
+    place = place_of(problem, known, whole);
     found = all_exponents(place.problem, law);
     std::erase_if(found, [&](const Complex& p) { return !is_vibration(p) || frequency_of(p) > to; });
     std::ranges::sort(found, Order(to));
@@ -193,10 +193,16 @@ ModesFound improve(ModesBasis& basis, const SlidingLaw& law, std::vector<Sliding
       const std::size_t end = std::min(open.size(), begin + at_once);
       Columns residuals(basis.body().free().size(), 2 * static_cast<Eigen::Index>(end - begin));
       Eigen::Index columns = 0;
+      Eigen::MatrixXcd vectors(basis.size(), static_cast<Eigen::Index>(end - begin));
+      for (std::size_t n = begin; n < end; ++n) {
+        fill_up(modes[open[n]].vector, basis.size());
+        vectors.col(static_cast<Eigen::Index>(n - begin)) = modes[open[n]].vector;
+      }
+      const Columns shapes = basis.shape_of(vectors);  // in one go: the basis is read from memory once
       for (std::size_t n = begin; n < end; ++n) {
         SlidingMode& mode = modes[open[n]];
-        fill_up(mode.vector, basis.size());
-        const auto residual = basis.residual(law, mode);
+        const auto residual =
+            basis.residual(law, mode, shapes.middleCols(2 * static_cast<Eigen::Index>(n - begin), 2));
         mode.residual = residual.size;
         if (residual.size <= tolerance) continue;
         worst = std::max(worst, residual.size);
@@ -229,8 +235,8 @@ ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim&
   // More than wanted are improved: the order may change.
   const std::size_t looked_at = wanted + std::max<std::size_t>(2, wanted / 8);
   for (int look = 0; look < aim.looks; ++look) {
-    Candidates here =
-        candidates(basis.body().comm(), basis.problem(), law, 1.01 * aim.to, all.modes, looked_at);
+    Candidates here = candidates(basis.body().comm(), basis.problem(), law, 1.01 * aim.to, all.modes,
+                                 looked_at, look == 0 && aim.looks > 1);
     all.in_window = here.in_window;
     if (here.fresh.empty()) break;
     ModesFound found = improve(basis, law, std::move(here.fresh), aim.tolerance);

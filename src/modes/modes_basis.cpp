@@ -63,18 +63,25 @@ Eigen::Index ModesBasis::add(Columns x, double least) {
   return added;
 }
 
-Columns ModesBasis::shape_of(const Eigen::VectorXcd& vector) const {
-  Eigen::MatrixXd parts(vector.size(), 2);
-  parts << vector.real(), vector.imag();
+Columns ModesBasis::shape_of(const Eigen::MatrixXcd& vectors) const {
+  Eigen::MatrixXd parts(vectors.rows(), 2 * vectors.cols());
+  for (Eigen::Index k = 0; k < vectors.cols(); ++k)
+    parts.middleCols(2 * k, 2) << vectors.col(k).real(), vectors.col(k).imag();
   return shape_ * parts;
 }
 
 Eigen::VectorXcd ModesBasis::reaction_of(const Eigen::VectorXcd& vector) const { return reaction_ * vector; }
 
 ModesBasis::Residual ModesBasis::residual(const SlidingLaw& law, const SlidingMode& mode) const {
+  return residual(law, mode, shape_of(mode.vector));
+}
+
+ModesBasis::Residual ModesBasis::residual(const SlidingLaw& law, const SlidingMode& mode,
+                                          const Columns& u) const {
+  static const LogEvent event("ModesResidual");
+  const LogEvent::Scope scope(event);
   const MPI_Comm comm = body_.comm();
   const Column& mass = body_.free().mass();
-  const Columns u = shape_of(mode.vector);
   Columns ku(u.rows(), 2);
   const auto closed = static_cast<Eigen::Index>(body_.closed().size());
   Eigen::MatrixXd reaction(closed, 2);

@@ -48,7 +48,8 @@ Schema modes_schema() {
       {"modes_tolerance", Kind::real, "1", "1e-10", tolerable,
        "residual of every reported mode on the whole body, relative"},
       {"modes_basis", Kind::integer, "1", absent, range::at_least_one,
-       "real modes that the search starts from; all below 1.4 times modes_to when not given"},
+       "real modes that the search starts from; when not given all below 1.4 times modes_to, below twice of "
+       "it where friction has little memory"},
       {"modes_scheme",
        Kind::flag,
        "",

@@ -251,8 +251,14 @@ ModesSweep sweep_modes(ModesBasis& basis, const SteadySliding& state, const Scen
     sweep.basis = static_cast<PetscInt>(part.problem().size());
     sweep.paths = follow_all(basis.body().comm(), part, laws, anchors);
     const std::size_t next = worst_place(sweep.paths, sweep.worst);
-    if (sweep.worst <= tolerable || places.contains(next) || places.size() >= most_places) break;
-    find(next);
+    if (sweep.worst <= tolerable || sweep.places.size() >= most_places) break;
+    // What the part does not hold there, and nothing else.
+    std::vector<SlidingMode> poor;
+    for (const ModePath& path : sweep.paths)
+      if (path.residual[next] > aim.tolerance) poor.push_back({path.exponent[next], {}, 0});
+    sweep.places.push_back(choice.values[next]);
+    for (SlidingMode& mode : improve(basis, laws[next], std::move(poor), aim.tolerance).modes)
+      if (is_there(mode.exponent)) anchors.push_back({next, std::move(mode)});
   }
   find_events(sweep);
   return sweep;

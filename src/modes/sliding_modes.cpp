@@ -12,8 +12,6 @@
 namespace slipscale {
 namespace {
 
-constexpr double beyond = 1.4;  ///< real modes are taken up to this many times the highest frequency
-
 /// The same modes under the scheme's own law, in the order of `modes`; those that are lost stay empty.
 void find_scheme_modes(ModesBasis& basis, SlidingLaw law, const SchemeStep& step, double tolerance,
                        std::vector<ReportedMode>& modes) {
@@ -27,7 +25,7 @@ void find_scheme_modes(ModesBasis& basis, SlidingLaw law, const SchemeStep& step
 
 }  // namespace
 
-ModesBasis basis_of_real_modes(const SteadySliding& state, const ModesChoice& choice) {
+ModesBasis basis_of_real_modes(const SteadySliding& state, const ModesChoice& choice, double beyond) {
   const PetscInt unknowns = state.body->free().total();
   if (choice.count > unknowns)
     throw UserError(format("-modes_count is {}, but the body has only {} free components; give at most that",

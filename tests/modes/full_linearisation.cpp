@@ -119,7 +119,7 @@ TEST(SlidingModes, AreThoseOfTheFullLinearisation) {
     const Model model(mesh, materials(), Model::Storage::full);
     const SteadySliding state = steady_sliding(PETSC_COMM_WORLD, model, c.scene);
     ASSERT_GT(state.in_contact, 0) << c.text;
-    ModesBasis basis = basis_of_real_modes(state, choice());
+    ModesBasis basis = basis_of_real_modes(state, choice(), 1.4);
     const ModesReport report =
         find_sliding_modes(basis, state, c.scene, choice(), SchemeStep{step, c.scene.beta2});
     ASSERT_EQ(report.modes.size(), 8u) << c.text;

@@ -65,7 +65,7 @@ class Determinant(SlabCase):
                 expected = slab.mode(near)
                 found = []
                 for elements in (64, 128):
-                    mode = self.modes(self.scene(slab, elements), modes_to=1.1 * abs(expected.imag) / LENGTH, modes_count=40,
+                    mode = self.modes(self.scene(slab, elements), modes_to=1.1 * abs(expected.imag) / LENGTH, modes_count=12,
                                       modes_tolerance=1e-8, modes_shapes=0).nearest(
                                           complex(expected.real, abs(expected.imag)))
                     found.append(complex(mode.real, np.copysign(mode.imag, expected.imag)))

@@ -27,8 +27,8 @@ class ModesBasis {
   const Columns& shapes() const { return shape_; }  ///< Φ, [free, basis]
   const SlidingOperator& body() const { return body_; }
 
-  /// Φ y, real and imaginary parts, [free, 2].
-  Columns shape_of(const Eigen::VectorXcd& vector) const;
+  /// Φ y, real and imaginary parts, [free, 2]; of several y side by side, [free, 2 vectors].
+  Columns shape_of(const Eigen::MatrixXcd& vectors) const;
   /// λ of the closed nodes in a mode, [closed], N/m.
   Eigen::VectorXcd reaction_of(const Eigen::VectorXcd& vector) const;
 
@@ -39,6 +39,8 @@ class ModesBasis {
     double size = 0;
   };
   Residual residual(const SlidingLaw& law, const SlidingMode& mode) const;
+  /// The same, of a mode whose shape is known.
+  Residual residual(const SlidingLaw& law, const SlidingMode& mode, const Columns& shape) const;
 
  private:
   const SlidingOperator& body_;

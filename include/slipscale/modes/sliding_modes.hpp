@@ -5,9 +5,13 @@
 
 namespace slipscale {
 
-/// The real modes that the search starts from. Throws UserError for more modes than there are unknowns.
-/// Collective.
-ModesBasis basis_of_real_modes(const SteadySliding& state, const ModesChoice& choice);
+/// The real modes that the search starts from: unless their number is chosen, up to `beyond` times the
+/// highest frequency. Throws UserError for more modes than there are unknowns. Collective.
+ModesBasis basis_of_real_modes(const SteadySliding& state, const ModesChoice& choice, double beyond);
+
+/// How far beyond the highest frequency: where friction remembers, it couples modes far apart the less;
+/// `notes`: of `remarks_on_modes`.
+inline double reach_of_start(const std::vector<std::string>& notes) { return notes.empty() ? 1.4 : 2; }
 
 /// Finds the modes and what they do; `step`: also those of the time scheme at this step. Collective.
 ModesReport find_sliding_modes(ModesBasis& basis, const SteadySliding& state, const Scene& scene,
