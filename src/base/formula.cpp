@@ -53,28 +53,33 @@ std::string known_names(const std::string& variables, const Formula::Names& name
 
 }  // namespace
 
+struct Formula::Compiled {
+  mu::Parser parser;
+};
+
 Formula::Formula(const std::string& text, const std::string& variables, const Names& names,
                  const std::string& refusal)
-    : text_(text), parser_(std::make_unique<mu::Parser>()) {
+    : text_(text), compiled_(std::make_unique<Compiled>()) {
+  mu::Parser& parser = compiled_->parser;
   const auto refuse = [&](const std::string& fault) {
     throw UserError(one_line(refusal + ", and " + fault + known_names(variables, names)));
   };
   if (const std::size_t place = assignment(text); place != std::string::npos)
     refuse(format("the = at character {} changes nothing here, == compares", place + 1));
   try {
-    parser_->SetExpr(text);
-    const auto used = parser_->GetUsedVar();  // a copy: defining a name empties it
+    parser.SetExpr(text);
+    const auto used = parser.GetUsedVar();  // a copy: defining a name empties it
     for (const auto& [name, unused] : used) {
       const auto variable = std::ranges::find(variable_names, name);
       const auto constant = names.constants.find(name);
       if (variable != variable_names.end() && variables.find(name) != std::string::npos) {
         const auto k = static_cast<std::size_t>(variable - variable_names.begin());
         uses_[k] = true;
-        parser_->DefineVar(name, &where_[k]);
+        parser.DefineVar(name, &where_[k]);
       } else if (constant != names.constants.end()) {
-        parser_->DefineConst(name, constant->second);
+        parser.DefineConst(name, constant->second);
       } else if (std::ranges::find(names.parameters, name) != names.parameters.end()) {
-        parser_->DefineConst(name, names.value(name));
+        parser.DefineConst(name, names.value(name));
       } else {
         const std::string near = nearest(name, names.parameters);
         refuse(format("'{}' at character {} {}", name, character_of(name, text),
@@ -82,8 +87,8 @@ Formula::Formula(const std::string& text, const std::string& variables, const Na
                (near.empty() ? "" : ", did you mean " + near + "?"));
       }
     }
-    (void)parser_->Eval();
-    if (parser_->GetNumResults() != 1) refuse("a comma makes more than one number of it");
+    (void)parser.Eval();
+    if (parser.GetNumResults() != 1) refuse("a comma makes more than one number of it");
   } catch (const mu::ParserError& error) {
     std::string fault = error.GetMsg();
     fault.erase(fault.find_last_not_of(". \n") + 1);
@@ -95,7 +100,7 @@ Formula::~Formula() = default;
 
 double Formula::operator()(const Vector2& place, double time) const {
   where_ = {place[0], place[1], time};
-  return parser_->Eval();
+  return compiled_->parser.Eval();
 }
 
 bool Formula::reserved(const std::string& name, const Names& names) {

@@ -10,10 +10,6 @@
 
 #include "slipscale/base/vector2.hpp"
 
-namespace mu {
-class Parser;
-}
-
 namespace slipscale {
 
 /// A formula that the user writes in place of a number: of the place x, y [m] and the time t [s], of
@@ -52,7 +48,8 @@ class Formula {
   std::string text_;
   std::array<bool, 3> uses_{};             ///< x, y, t
   mutable std::array<double, 3> where_{};  ///< what the compiled formula reads
-  std::unique_ptr<mu::Parser> parser_;
+  struct Compiled;
+  std::unique_ptr<Compiled> compiled_;
 };
 
 using SharedFormula = std::shared_ptr<const Formula>;  ///< null: a plain number stands alone
