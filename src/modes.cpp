@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commit.hpp"
+#include "scene_names.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/dynamics/formulas.hpp"
@@ -17,22 +18,6 @@
 using namespace slipscale;
 
 namespace {
-
-/// The names that options may carry: those of the mesh, and `all` for every region that has no material of
-/// its own.
-void know_names(Options& options, const Mesh& mesh) {
-  auto regions = mesh.region_names();
-  regions.push_back("all");
-  options.know_names("region", regions);
-  options.know_names("boundary", mesh.boundary_names());
-  know_formula_names(options, mesh);
-}
-
-std::vector<std::string> descriptions(const std::vector<Material>& materials) {
-  std::vector<std::string> texts;
-  for (const Material& material : materials) texts.push_back(material.description);
-  return texts;
-}
 
 /// Options of a scene for `slide` that say nothing about steady sliding. They are taken, so that one scene
 /// serves both programs, and named.
@@ -108,12 +93,17 @@ void modes(Options& options) {
 
   const SteadySliding state = steady_sliding(comm, model, scene);
   print_notes(state.notes);
-  print_notes(remarks_on_modes(model, sliding_law(scene)));
   ModesBasis basis = basis_of_real_modes(state, choice);
   options.refuse_unknown();
   ModesReport report = find_sliding_modes(basis, state, scene, choice, step);
-  for (const SweepChoice& sweep : choice.sweeps)
-    report.sweeps.push_back(sweep_modes(basis, scene, sweep, {choice.to, choice.count, choice.tolerance}));
+  auto notes = remarks_on_modes(comm, model, scene);
+  report.search.notes.insert(report.search.notes.begin(), notes.begin(), notes.end());
+  for (const SweepChoice& sweep : choice.sweeps) {
+    report.sweeps.push_back(
+        sweep_modes(basis, state, scene, sweep, {choice.to, choice.count, choice.tolerance}));
+    notes = report.sweeps.back().notes;
+    report.search.notes.insert(report.search.notes.end(), notes.begin(), notes.end());
+  }
 
   // Only now do the files of an older run give way.
   const OutputFolder folder(comm, choice.folder, {"modes.yaml", "modes.h5", "modes.xdmf"});

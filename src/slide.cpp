@@ -1,15 +1,16 @@
 #include <memory>
 
 #include "commit.hpp"
+#include "scene_names.hpp"
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
-#include "slipscale/dynamics/formulas.hpp"
 #include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/checkpoints.hpp"
+#include "slipscale/record/hints.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -37,22 +38,6 @@ const std::vector<std::string> may_change{"restart",
                                           "material_*_file",
                                           "stiffness_kernel",
                                           "stiffness_instructions"};
-
-/// The names that options may carry: those of the mesh, and `all` for every region that has no material of
-/// its own.
-void know_names(Options& options, const Mesh& mesh) {
-  auto regions = mesh.region_names();
-  regions.push_back("all");
-  options.know_names("region", regions);
-  options.know_names("boundary", mesh.boundary_names());
-  know_formula_names(options, mesh);
-}
-
-std::vector<std::string> descriptions(const std::vector<Material>& materials) {
-  std::vector<std::string> texts;
-  for (const Material& material : materials) texts.push_back(material.description);
-  return texts;
-}
 
 void print_scene(const Scene& scene) {
   for (const BoundaryCondition& condition : scene.conditions)
@@ -119,7 +104,9 @@ void slide(Options& options) {
     restart->read(body.state());
     body.resume();
   }
+  print(describe_memory(body));
   print_notes(remarks_at_start(body));
+  if (!restart) print_notes(hints_at_start(body, step, record));
   stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);

@@ -9,7 +9,8 @@ from slipscale.running.table import OUTCOME
 COMPARED = ("spectrum_distance", "power", "friction", "frequency", "amplitude", "stick", "slip", "open")
 
 WAYS = {"time": "T", "coefficient": "µ", "damping": "damping", "slip_rate": "slip-rate form", "density": "density",
-        "density_time": "density, then T"}
+        "density_time": "density, then T", "modes": "T by modes", "modes_all": "T, µ, density, damping by modes"}
+BY_MODES = ("modes", "modes_all")  # ways whose level is that of modes
 GOES_ON = ("density_time",)  # ways whose distance before is that after another way
 
 
@@ -51,6 +52,11 @@ def cases_of(rows):
             case = tuple(row[name] for name in COMPOSITE)
             cases.setdefault(case, {})[row["way"], row["level"]] = row
     return cases
+
+
+def level_of(way):
+    """The level of adapt that a way other than `time` goes by."""
+    return "modes" if way in BY_MODES else "search"
 
 
 def before_of(case):

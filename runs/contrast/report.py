@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contrast.adapted import WAYS, before_of, best_level, cases_of
+from contrast.adapted import WAYS, before_of, best_level, cases_of, level_of
 from contrast.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
 from slipscale.reports.publish import bullets, failures, folded, publish
 from slipscale.running.studies import started_by_snakemake
@@ -119,7 +119,7 @@ def other_table(cases):
     header = ["inclusions [GPa]", "morphology", "before", *(words for way, words in WAYS.items() if way != "time")]
     lines = []
     for name, case in cases.items():
-        others = {way: (case.get((way, "search")), case.get((way, "nearest"))) for way in WAYS if way != "time"}
+        others = {way: (case.get((way, level_of(way))), case.get((way, "nearest"))) for way in WAYS if way != "time"}
         if any(search for search, _ in others.values()):
             lines.append([f"{name[0]:g}", name[3], f"{before_of(case):.2f}",
                           *(f"{said(search)} (nearest {said(nearest)})" if search else "-"
@@ -130,7 +130,7 @@ def other_table(cases):
 def adapted_lines(cases):
     """How often a way counts as adapted, and what it leaves."""
     for way, words in WAYS.items():
-        for level in ("scaling", "frequency", "search") if way == "time" else ("search",):
+        for level in ("scaling", "frequency", "search") if way == "time" else (level_of(way),):
             rows = [case[way, level] for case in cases.values() if (way, level) in case]
             if not rows:
                 continue

@@ -3,6 +3,8 @@
 Reading     the files of a run, meshes, effective materials
 Measuring   regime (what a run did in a window), spectrum (Welch), distance (of signals, spectra, portraits),
             surface_motion (power through the contact), convergence (orders, Richardson), window. Draws nothing.
+Planning    plan (command): wishes, case, pilots (coarse runs), values, errors (order, constant, scatter), costs,
+            proposal, refusals, answer
 Adapting    adapt (command), relaxation (formulas), search, trials
 Running     attempt (a program whose failure is a result), commands (options as words), table (runs by name, rows),
             sweep, sweep_plan, sweep_command

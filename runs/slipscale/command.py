@@ -26,6 +26,7 @@ COMMANDS = {  # name: (module, what it does in one line)
     "sweep": ("slipscale.running.sweep_command", "runs slide for every combination of values of any options"),
     "table": ("slipscale.reports.table_command", "rows and columns of a study's table as text"),
     "maps": ("slipscale.pictures.maps", "columns of a study's table over the options that were varied"),
+    "plan": ("slipscale.planning.plan", "which mesh, step and window keep the accuracy that is wished for, at which price"),
     "adapt": ("slipscale.adapting.adapt", "the relaxation time with which a homogeneous model rubs as the composite"),
 }
 

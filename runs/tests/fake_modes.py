@@ -1,5 +1,10 @@
-"""Writes an output folder as `modes` does, with made-up modes, to try the reading and the plots."""
+"""Writes an output folder as `modes` does, with made-up modes, to try the reading and the plots; as a program, with
+growth rates that are inverse to the relaxation time.
 
+    python3 -m tests.fake_modes -friction_time 1e-6 -output_folder FOLDER
+"""
+
+import sys
 from pathlib import Path
 
 import h5py
@@ -50,5 +55,13 @@ def write_modes(folder, modes=tuple(MODES), scheme=False, shift=0.0, more=""):
             file[f"contact/{name}_real"], file[f"contact/{name}_imaginary"] = values.real, values.imag
 
 
+def main(words):
+    options = {name[1:]: value for name, value in zip(words[::2], words[1::2])}
+    factor = 1e-6 / float(options["friction_time"])
+    damping = 1e6 if float(options.get("friction_coefficient", 0.5)) == 0 else 0  # 1/s
+    write_modes(options["output_folder"], [(frequency, factor * growth - damping) for frequency, growth in MODES])
+    return 0
+
+
 if __name__ == "__main__":
-    raise SystemExit("tests.fake_modes is a library, no command.")
+    sys.exit(main(sys.argv[1:]))

@@ -8,17 +8,19 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
+#include "sweep_problem.hpp"
 
 namespace slipscale {
 namespace {
 
 constexpr int most_rounds = 40;
-constexpr int most_in_vain = 4;              ///< rounds without half the residual
-constexpr double of_largest = 1e-2;          ///< directions of less than this part of the residuals wait
-constexpr double of_column = 1e-5;           ///< of a new direction: what must be new of it
-constexpr double same = 1e-6;                ///< exponents that are one, relative
-constexpr double parallel = 0.9999;          ///< cosine of vectors that are one
-constexpr Eigen::Index most_unknowns = 750;  ///< of a companion matrix, for the second look
+constexpr int most_in_vain = 4;             ///< rounds without half the residual
+constexpr double of_largest = 1e-2;         ///< directions of less than this part of the residuals wait
+constexpr double of_column = 1e-5;          ///< of a new direction: what must be new of it
+constexpr double same = 1e-6;               ///< exponents that are one, relative
+constexpr double parallel = 0.9999;         ///< cosine of vectors that are one
+constexpr std::size_t at_once = 20;         ///< modes whose residuals are held in memory
+constexpr Eigen::Index most_vectors = 250;  ///< of a companion matrix, which has three times as many rows
 
 bool is_number(const SlidingMode& mode) { return std::isfinite(std::norm(mode.exponent)); }
 
@@ -101,14 +103,75 @@ class Order {
 /// Not the memory of friction, or damping, that dies away before a period is over; what creeps away counts.
 bool is_vibration(Complex p) { return p.real() > -p.imag(); }
 
-/// Exponents that are looked for, growth descending.
-std::vector<Complex> candidates(const ReducedProblem& problem, const SlidingLaw& law, double to) {
+/// Where all eigenvalues are looked for: the basis, or of a large one a part that holds the modes that are
+/// known and, for those that are not, what moves slowly.
+struct Place {
+  Eigen::MatrixXd part;  ///< [basis, part], orthonormal; empty: the basis itself
+  ReducedProblem problem;
+};
+
+Place place_of(const ReducedProblem& problem, const std::vector<SlidingMode>& known) {
+  const Eigen::Index size = problem.size();
+  if (size <= most_vectors) return {{}, problem};
+  const Eigen::Index of_known = 2 * std::min(static_cast<Eigen::Index>(known.size()), most_vectors / 4);
+  Eigen::MatrixXd vectors = Eigen::MatrixXd::Zero(size, most_vectors);
+  for (Eigen::Index k = 0; k < of_known; k += 2) {
+    const Eigen::VectorXcd& y = known[static_cast<std::size_t>(k / 2)].vector;
+    vectors.col(k).head(y.size()) = y.real();
+    vectors.col(k + 1).head(y.size()) = y.imag();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> slow(problem.stiffness);
+  vectors.rightCols(most_vectors - of_known) = slow.eigenvectors().leftCols(most_vectors - of_known);
+  Place place{orthonormal_part(vectors), {}};
+  place.problem.stiffness = place.part.transpose() * problem.stiffness * place.part;
+  place.problem.friction = place.part.transpose() * problem.friction * place.part;
+  return place;
+}
+
+void share(MPI_Comm comm, Eigen::MatrixXd& matrix) {
+  Eigen::Index size[] = {matrix.rows(), matrix.cols()};
+  MPI_Bcast(size, 2 * sizeof(Eigen::Index), MPI_BYTE, 0, comm);
+  matrix.resize(size[0], size[1]);
+  MPI_Bcast(matrix.data(), static_cast<int>(matrix.size()), MPI_DOUBLE, 0, comm);
+}
+
+/// Modes that are looked for, growth descending, those that are not yet known: of a large basis with their
+/// vectors. Found by the first rank.
+struct Candidates {
+  std::vector<SlidingMode> fresh;
+  std::size_t in_window = 0;
+};
+
+Candidates candidates(MPI_Comm comm, const ReducedProblem& problem, const SlidingLaw& law, double to,
+                      const std::vector<SlidingMode>& known, std::size_t looked_at) {
   static const LogEvent event("ModesCompanion");
   const LogEvent::Scope scope(event);
-  std::vector<Complex> found = all_exponents(problem, law);
-  std::erase_if(found, [&](const Complex& p) { return !is_vibration(p) || frequency_of(p) > to; });
-  std::ranges::sort(found, Order(to));
-  return found;
+  Place place;
+  std::vector<Complex> found;
+  if (is_root(comm)) {
+    place = place_of(problem, known);
+    found = all_exponents(place.problem, law);
+    std::erase_if(found, [&](const Complex& p) { return !is_vibration(p) || frequency_of(p) > to; });
+    std::ranges::sort(found, Order(to));
+  }
+  std::size_t count = found.size();
+  MPI_Bcast(&count, sizeof count, MPI_BYTE, 0, comm);
+  found.resize(count);
+  MPI_Bcast(found.data(), static_cast<int>(count), MPI_CXX_DOUBLE_COMPLEX, 0, comm);
+  for (Eigen::MatrixXd* matrix : {&place.part, &place.problem.stiffness, &place.problem.friction})
+    share(comm, *matrix);
+  Candidates list{{}, count};
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < std::min(count, looked_at); ++k)
+    if (!is_known(known, found[k])) {
+      all.push_back(all.size());
+      list.fresh.push_back({found[k], {}, 0});
+    }
+  if (place.part.size() == 0) return list;
+  find_again(comm, place.problem, law, list.fresh, all);
+  std::erase_if(list.fresh, [](const SlidingMode& mode) { return !is_number(mode); });
+  for (SlidingMode& mode : list.fresh) mode.vector = (place.part * mode.vector).eval();
+  return list;
 }
 
 }  // namespace
@@ -123,27 +186,36 @@ ModesFound improve(ModesBasis& basis, const SlidingLaw& law, std::vector<Sliding
   for (int in_vain = 0; !open.empty() && found.rounds < most_rounds && in_vain < most_in_vain;) {
     find_again(comm, basis.problem(), law, modes, open);
     std::erase_if(open, [&](std::size_t k) { return !is_number(modes[k]); });
-    Columns residuals(basis.body().free().size(), 2 * static_cast<Eigen::Index>(open.size()));
-    Eigen::Index columns = 0;
     double worst = 0;
+    Eigen::Index added = 0;
     std::vector<std::size_t> still;
-    for (const std::size_t k : open) {
-      const auto residual = basis.residual(law, modes[k]);
-      modes[k].residual = residual.size;
-      if (residual.size <= tolerance) continue;
-      worst = std::max(worst, residual.size);
-      residuals.middleCols(columns, 2) = residual.force / residual.size;
-      columns += 2;
-      still.push_back(k);
+    for (std::size_t begin = 0; begin < open.size(); begin += at_once) {
+      const std::size_t end = std::min(open.size(), begin + at_once);
+      Columns residuals(basis.body().free().size(), 2 * static_cast<Eigen::Index>(end - begin));
+      Eigen::Index columns = 0;
+      for (std::size_t n = begin; n < end; ++n) {
+        SlidingMode& mode = modes[open[n]];
+        fill_up(mode.vector, basis.size());
+        const auto residual = basis.residual(law, mode);
+        mode.residual = residual.size;
+        if (residual.size <= tolerance) continue;
+        worst = std::max(worst, residual.size);
+        residuals.middleCols(columns, 2) = residual.force / residual.size;
+        columns += 2;
+        still.push_back(open[n]);
+      }
+      if (columns == 0) continue;
+      residuals.conservativeResize(Eigen::NoChange, columns);
+      residuals = main_directions(comm, basis.body().free().mass(), residuals);
+      found.solves += static_cast<int>(residuals.cols());
+      added += basis.add(basis.body().solve(residuals), of_column);
     }
     open = still;
     if (open.empty()) break;
     in_vain = worst < 0.5 * best ? 0 : in_vain + 1;
     best = std::min(best, worst);
-    const Columns directions = main_directions(comm, basis.body().free().mass(), residuals.leftCols(columns));
-    found.solves += static_cast<int>(directions.cols());
     ++found.rounds;
-    if (basis.add(basis.body().solve(directions), of_column) == 0) break;
+    if (added == 0) break;
   }
   for (SlidingMode& mode : modes)
     if (is_number(mode)) fill_up(mode.vector, basis.size());
@@ -156,15 +228,12 @@ ModesFound find_modes(ModesBasis& basis, const SlidingLaw& law, const SearchAim&
   const auto wanted = static_cast<std::size_t>(aim.count);
   // More than wanted are improved: the order may change.
   const std::size_t looked_at = wanted + std::max<std::size_t>(2, wanted / 8);
-  for (int look = 0; look < 4; ++look) {
-    if (look > 0 && 3 * basis.size() > most_unknowns) break;
-    const std::vector<Complex> here = candidates(basis.problem(), law, 1.01 * aim.to);
-    std::vector<SlidingMode> fresh;
-    for (std::size_t k = 0; k < std::min(here.size(), looked_at); ++k)
-      if (!is_known(all.modes, here[k])) fresh.push_back({here[k], {}, 0});
-    all.in_window = here.size();
-    if (fresh.empty()) break;
-    ModesFound found = improve(basis, law, std::move(fresh), aim.tolerance);
+  for (int look = 0; look < aim.looks; ++look) {
+    Candidates here =
+        candidates(basis.body().comm(), basis.problem(), law, 1.01 * aim.to, all.modes, looked_at);
+    all.in_window = here.in_window;
+    if (here.fresh.empty()) break;
+    ModesFound found = improve(basis, law, std::move(here.fresh), aim.tolerance);
     all.rounds += found.rounds;
     all.solves += found.solves;
     for (SlidingMode& mode : found.modes)

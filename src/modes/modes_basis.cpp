@@ -37,7 +37,6 @@ Eigen::Index ModesBasis::add(Columns x, double least) {
     if (old > 0) x -= shape_ * inner(comm, shape_, mass.asDiagonal() * x);
   };
   project();
-  project();
   x = orthonormal(comm, mass, x, least);
   project();
   x = orthonormal(comm, mass, x, 0.5);

@@ -48,7 +48,7 @@ Schema modes_schema() {
       {"modes_tolerance", Kind::real, "1", "1e-10", tolerable,
        "residual of every reported mode on the whole body, relative"},
       {"modes_basis", Kind::integer, "1", absent, range::at_least_one,
-       "real modes that the search starts from; all below twice modes_to when not given"},
+       "real modes that the search starts from; all below 1.4 times modes_to when not given"},
       {"modes_scheme",
        Kind::flag,
        "",
@@ -58,7 +58,7 @@ Schema modes_schema() {
       {"modes_coefficient", Kind::text, "1", absent, range::any,
        "first:step:last, a sweep of the coefficient of friction, which every mode is followed along; the "
        "nodes that "
-       "touch stay those of the scene's own values, as in the other sweeps"},
+       "touch stay those of the scene's own value, and where others would open or close is told"},
       {"modes_time", Kind::text, "s", absent, range::any,
        "first:step:last, a sweep of the relaxation time T of regularized friction"},
       {"modes_load_speed", Kind::text, "m/s", absent, range::any,

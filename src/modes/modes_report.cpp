@@ -87,6 +87,8 @@ std::string sweep_yaml(const ModesSweep& sweep) {
   text += "    basis: " + std::to_string(sweep.basis) + "\n";
   text += "    found_on_the_whole_body_at: " + list(sweep.places) + "\n";
   text += format("    largest_residual: {:.2e}\n", sweep.worst);
+  text += "    same_contact: " + list(sweep.same_contact) +
+          "  # first and last value at which the same nodes touch\n";
   text += list_of("becomes_unstable", sweep.limits.size(), 3, [&](Yaml& item, std::size_t k) {
     const StabilityLimit& limit = sweep.limits[k];
     item.exact("value", limit.value, sweep.choice.unit).exact("frequency", limit.frequency, "Hz");

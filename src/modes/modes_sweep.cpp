@@ -140,6 +140,49 @@ std::vector<Eigen::VectorXcd> real_vectors(const ModesBasis& basis, double to) {
   return found;
 }
 
+/// Over which of the values the nodes that touch are those of the scene's own value: only the coefficient has
+/// a part in the steady state. What lies between two values that keep the contact is taken to keep it.
+void look_at_contact(const SlidingOperator& body, const SteadySliding& state, const Scene& scene,
+                     ModesSweep& sweep) {
+  const std::vector<double>& values = sweep.choice.values;
+  const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;
+  if (sweep.choice.of != SweepChoice::Of::coefficient) {
+    sweep.same_contact = {values.front(), values.back()};
+    return;
+  }
+  const double own = scene.friction.coefficient;
+  const auto keeps = [&](std::ptrdiff_t k) {
+    Scene changed = scene;
+    changed.friction.coefficient = values[static_cast<std::size_t>(k)];
+    return changed.friction.coefficient == own || keeps_contact(body.comm(), body.model(), changed, state);
+  };
+  const auto nearest =
+      std::ranges::min_element(values, {}, [&](double value) { return std::abs(value - own); }) -
+      values.begin();
+  if (keeps(nearest)) {
+    const auto reach = [&](std::ptrdiff_t end) {
+      if (end == nearest || keeps(end)) return end;
+      std::ptrdiff_t in = nearest, out = end;
+      while (std::abs(out - in) > 1) {
+        const std::ptrdiff_t middle = (in + out) / 2;
+        (keeps(middle) ? in : out) = middle;
+      }
+      return in;
+    };
+    for (const std::ptrdiff_t end : {std::ptrdiff_t{0}, last})
+      sweep.same_contact.push_back(values[static_cast<std::size_t>(reach(end))]);
+    if (sweep.same_contact[0] == values.front() && sweep.same_contact[1] == values.back()) return;
+  }
+  sweep.notes.push_back(
+      format("along the sweep of the coefficient the nodes that touch are those of {:g} ", own) +
+      (sweep.same_contact.empty()
+           ? std::string("at none of the values")
+           : format("from {:g} to {:g}", sweep.same_contact[0], sweep.same_contact[1])) +
+      "; at the others nodes open or close, and the paths are those of a body whose contact stays: run such "
+      "values "
+      "on their own");
+}
+
 void find_limits(ModesSweep& sweep, std::size_t n) {
   const auto& p = sweep.paths[n].exponent;
   const auto& values = sweep.choice.values;
@@ -179,9 +222,14 @@ void find_events(ModesSweep& sweep) {
   std::ranges::sort(sweep.couplings, {}, &Coupling::value);
 }
 
-ModesSweep sweep_modes(ModesBasis& basis, const Scene& scene, const SweepChoice& choice,
-                       const SearchAim& aim) {
+ModesSweep sweep_modes(ModesBasis& basis, const SteadySliding& state, const Scene& scene,
+                       const SweepChoice& choice, const SearchAim& asked) {
   ModesSweep sweep{choice, {}, {}, {}, 0, {}, 0};
+  look_at_contact(basis.body(), state, scene, sweep);
+  // No point is better than the rest of its path, and the basis knows the modes of the scene's own value.
+  SearchAim aim = asked;
+  aim.tolerance = std::max(aim.tolerance, tolerable / 10);
+  aim.looks = 1;
   const std::size_t count = choice.values.size();
   std::vector<SlidingLaw> laws;
   for (std::size_t k = 0; k < count; ++k) laws.push_back(law_at(scene, choice, k));

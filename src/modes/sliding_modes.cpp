@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "real_modes.hpp"
@@ -11,7 +12,7 @@
 namespace slipscale {
 namespace {
 
-constexpr double beyond = 2;  ///< real modes are taken up to this many times the highest frequency
+constexpr double beyond = 1.4;  ///< real modes are taken up to this many times the highest frequency
 
 /// The same modes under the scheme's own law, in the order of `modes`; those that are lost stay empty.
 void find_scheme_modes(ModesBasis& basis, SlidingLaw law, const SchemeStep& step, double tolerance,
@@ -62,20 +63,26 @@ ModesReport find_sliding_modes(ModesBasis& basis, const SteadySliding& state, co
   return report;
 }
 
-std::vector<std::string> remarks_on_modes(const Model& model, const SlidingLaw& law) {
+std::vector<std::string> remarks_on_modes(MPI_Comm comm, const Model& model, const Scene& scene) {
+  const SlidingLaw law = sliding_law(scene);
   if (law.coefficient == 0) return {};
-  double speed = 0;
+  double speed = 0, edge = std::numeric_limits<double>::infinity();
   for (const Material& material : model.materials) speed = std::max(speed, wave_speeds(material, 1, 0).slow);
-  const double reach = speed * law.time, edge = model.mesh.shortest_edge;
+  for (const BoundaryEdge& each : model.mesh.find_boundary(scene.surface->boundary)->edges)
+    edge = std::min(edge, std::hypot(each.outward[0], each.outward[1]));
+  MPI_Allreduce(MPI_IN_PLACE, &edge, 1, MPI_DOUBLE, MPI_MIN, comm);
   constexpr double edges = 2;
+  const double reach = speed * law.time;
   if (reach >= edges * edge) return {};
   const std::string what =
       law.time == 0 ? "friction has no memory (Coulomb's law)"
                     : format("the memory of friction is short beside the mesh (c_s T is {}, an edge {})",
                              engineering(reach, "m"), engineering(edge, "m"));
-  return {what +
-          ": the waves that grow fastest may be those of the mesh's own length, and grow twice as fast on a "
-          "mesh twice as fine; a relaxation time of two edges over the shear wave speed removes them"};
+  return {
+      what +
+      ": the waves that grow fastest may be those at grid scale, which are the mesh's and not the body's, "
+      "and grow twice as fast on a mesh twice as fine; a relaxation time of two edges over the shear wave "
+      "speed removes them"};
 }
 
 }  // namespace slipscale

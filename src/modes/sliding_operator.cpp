@@ -21,13 +21,19 @@ SlidingOperator::SlidingOperator(MPI_Comm comm, const Model& model, FreeComponen
       closed_(std::move(closed)),
       direction_(direction),
       u_(std::make_unique<NodalVector>(comm, model.mesh.nodes, true)),
-      force_(model.mesh.nodes.number.size(), {0, 0}),
-      factor_(std::make_unique<Factor>()) {
+      force_(model.mesh.nodes.number.size(), {0, 0}) {
+  for (const ClosedNode& each : closed_) sliding_.push_back(free_.place_of(each.node, 0));
+}
+
+SlidingOperator::~SlidingOperator() = default;
+
+void SlidingOperator::factorise() const {
   static const LogEvent event("ModesFactor");
   const LogEvent::Scope scope(event);
-  for (const ClosedNode& each : closed_) sliding_.push_back(free_.place_of(each.node, 0));
+  const MPI_Comm comm = comm_;
+  factor_ = std::make_unique<Factor>();
   {
-    const OwnedMat whole = assembled_stiffness(comm, model), c = free_.matrix();
+    const OwnedMat whole = assembled_stiffness(comm, model_), c = free_.matrix();
     petsc(MatPtAP(whole, c, MAT_INITIAL_MATRIX, PETSC_DEFAULT, factor_->matrix.put()));
   }
   petsc(MatSetOption(factor_->matrix, MAT_SYMMETRIC, PETSC_TRUE));
@@ -55,8 +61,6 @@ SlidingOperator::SlidingOperator(MPI_Comm comm, const Model& model, FreeComponen
         "memory or ranks");
 }
 
-SlidingOperator::~SlidingOperator() = default;
-
 void SlidingOperator::internal_force(const Vector2* u, Vector2* force) const {
   const auto owned = static_cast<std::size_t>(model_.mesh.nodes.owned);
   if (u != u_->data()) std::copy_n(u, owned, u_->data());
@@ -74,6 +78,7 @@ void SlidingOperator::multiply(const double* w, double* kw, double* reaction) co
 }
 
 Columns SlidingOperator::solve(const Columns& right) const {
+  if (!factor_) factorise();
   static const LogEvent event("ModesSolve");
   const LogEvent::Scope scope(event);
   Columns from = right, to = Columns::Zero(right.rows(), right.cols());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "inner.hpp"
+#include "opened_contact.hpp"
 #include "sliding_loads.hpp"
 #include "slipscale/base/print.hpp"
 
@@ -12,8 +13,9 @@ namespace {
 
 constexpr int most_rounds = 60;          ///< of the active set
 constexpr int most_steps = 300;          ///< of GMRES
-constexpr double tolerance = 1e-13;      ///< of its residual
-constexpr double tolerable = 1e-8;       ///< of the same, where rounding allows no better
+constexpr double rough = 1e-6;           ///< of its residual, while nodes open and close
+constexpr double fine = 1e-8;            ///< of what the rough solution leaves
+constexpr double tolerable = 1e-8;       ///< of the whole, where rounding allows no better
 constexpr double rounding_unit = 1e-10;  ///< of reactions and gaps, over their largest
 
 /// One equilibrium for a set of closed nodes.
@@ -36,46 +38,31 @@ class Equilibrium {
     // What is free is counted from where it starts: that moves the body as a whole, when it does.
   }
 
-  /// (K − μG) w = Cᵀ(1 − μE)(F − K̄ u_p), where u_p holds the prescribed values.
-  void solve() {
-    const auto owned = place_.size();
-    const Eigen::Index size = body->free().size();
-    std::vector<Vector2> force(owned);
-    body->internal_force(place_.data(), force.data());
-    for (std::size_t i = 0; i < owned; ++i)
-      for (int axis = 0; axis < 2; ++axis) force[i][axis] = loads_.force[i][axis] - force[i][axis];
-    Column right(size);
-    body->free().restrict_to(force.data(), right.data());
-    add_plate_forces(right);
-    Column reaction(static_cast<Eigen::Index>(body->closed().size()));
-    for (std::size_t k = 0; k < body->closed().size(); ++k)
-      reaction[static_cast<Eigen::Index>(k)] = force[body->closed()[k].node][1];
-    body->add_friction(-friction_, reaction, right);
+  /// (K − μG) w = Cᵀ(1 − μE)(F − K̄ u_p), where u_p holds the prescribed values: `displacement`, which a call
+  /// after the first one makes finer. `inverse`: K⁻¹.
+  void solve(const OpenedContact& inverse, double tolerance) {
+    if (right_.size() == 0) prepare();
+    const auto precondition = [&](const Column& r) -> Column { return inverse.solve(r); };
+    const auto operate = [&](const Column& w) { return multiply(w); };
+    Column more;
+    gmres(comm_, operate, precondition, Column(right_ - multiply(w_)), tolerance, most_steps, more);
+    w_ += more;
+    displacement.resize(place_.size());
+    body->free().expand(w_.data(), displacement.data());
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      for (int axis = 0; axis < 2; ++axis) displacement[i][axis] += place_[i][axis];
+    internal_.resize(place_.size());
+    body->internal_force(displacement.data(), internal_.data());
+  }
 
-    const auto multiply = [&](const Column& w) {
-      Column kw(size);
-      body->multiply(w.data(), kw.data(), reaction.data());
-      body->add_friction(-friction_, reaction, kw);
-      return kw;
-    };
-    const auto precondition = [&](const Column& r) -> Column { return body->solve(r); };
-    Column w, more;
-    gmres(comm_, multiply, precondition, right, tolerance, most_steps, w);
-    const Column rest = right - multiply(w);
-    gmres(comm_, multiply, precondition, rest, tolerance, most_steps, more);
-    w += more;
-    const double size_of_right = sum_of(comm_, right.squaredNorm()),
-                 size_of_rest = sum_of(comm_, (right - multiply(w)).squaredNorm());
+  /// Throws UserError where the solution is none. Collective.
+  void refuse_unsolved() const {
+    const double size_of_right = sum_of(comm_, right_.squaredNorm()),
+                 size_of_rest = sum_of(comm_, (right_ - multiply(w_)).squaredNorm());
     if (!(size_of_rest <= tolerable * tolerable * size_of_right))
       throw UserError(
           "the equilibrium of steady sliding cannot be solved: the friction jams the body or a part of it "
           "hangs loose; look for parts that hang by one node, or give a smaller -friction_coefficient");
-    displacement.resize(owned);
-    body->free().expand(w.data(), displacement.data());
-    for (std::size_t i = 0; i < owned; ++i)
-      for (int axis = 0; axis < 2; ++axis) displacement[i][axis] += place_[i][axis];
-    internal_.resize(owned);
-    body->internal_force(displacement.data(), internal_.data());
   }
 
   /// (K̄ u − F)_y.
@@ -85,6 +72,29 @@ class Equilibrium {
   std::vector<Vector2> displacement;
 
  private:
+  void prepare() {
+    std::vector<Vector2> force(place_.size());
+    body->internal_force(place_.data(), force.data());
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      for (int axis = 0; axis < 2; ++axis) force[i][axis] = loads_.force[i][axis] - force[i][axis];
+    right_.resize(body->free().size());
+    body->free().restrict_to(force.data(), right_.data());
+    add_plate_forces(right_);
+    Column reaction(static_cast<Eigen::Index>(body->closed().size()));
+    for (std::size_t k = 0; k < body->closed().size(); ++k)
+      reaction[static_cast<Eigen::Index>(k)] = force[body->closed()[k].node][1];
+    body->add_friction(-friction_, reaction, right_);
+    w_ = Column::Zero(right_.size());
+  }
+
+  /// (K − μG) w.
+  Column multiply(const Column& w) const {
+    Column kw(w.size()), reaction(static_cast<Eigen::Index>(body->closed().size()));
+    body->multiply(w.data(), kw.data(), reaction.data());
+    body->add_friction(-friction_, reaction, kw);
+    return kw;
+  }
+
   void add_plate_forces(Column& right) const {
     int rank = 0;
     MPI_Comm_rank(comm_, &rank);
@@ -100,6 +110,7 @@ class Equilibrium {
   const SlidingLoads& loads_;
   double friction_;
   std::vector<Vector2> place_, internal_;
+  Column right_, w_;
 };
 
 double largest(MPI_Comm comm, double value) {
@@ -204,18 +215,38 @@ SteadySliding steady_sliding(MPI_Comm comm, const Model& model, const Scene& sce
   const SlidingLoads loads = sliding_loads(comm, model, scene);
   std::vector<char> is_closed(loads.nodes.size(), 1);
   refuse_untouched(comm, scene, is_closed);
+  std::unique_ptr<OpenedContact> inverse;
   for (int round = 1; round <= most_rounds; ++round) {
     refuse_unsupported(comm, model, loads, is_closed);
     Equilibrium found(comm, model, scene, loads, is_closed);
-    found.solve();
-    if (change_set(comm, loads, found, is_closed) == 0)
-      return result(comm, loads, scene, found, is_closed, round);
+    if (!inverse || !inverse->follow(*found.body)) {
+      inverse = std::make_unique<OpenedContact>(found.body);
+      (void)inverse->follow(*found.body);
+    }
+    found.solve(*inverse, rough);
+    long changed = change_set(comm, loads, found, is_closed);
+    if (changed == 0) {
+      found.solve(*inverse, fine);
+      found.refuse_unsolved();
+      changed = change_set(comm, loads, found, is_closed);
+    }
+    if (changed == 0) return result(comm, loads, scene, found, is_closed, round);
     refuse_untouched(comm, scene, is_closed);
   }
   throw UserError(
       format("the contact of steady sliding does not settle: nodes open and close in turn after {} rounds; "
              "give a smaller -friction_coefficient or another load",
              most_rounds));
+}
+
+bool keeps_contact(MPI_Comm comm, const Model& model, const Scene& scene, const SteadySliding& state) {
+  const SlidingLoads loads = sliding_loads(comm, model, scene);
+  Equilibrium found(comm, model, scene, loads, state.is_closed);
+  OpenedContact inverse(state.body);
+  std::vector<char> is_closed = state.is_closed;
+  if (!inverse.follow(*found.body)) return false;
+  found.solve(inverse, rough);
+  return change_set(comm, loads, found, is_closed) == 0;
 }
 
 }  // namespace slipscale

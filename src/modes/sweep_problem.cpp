@@ -1,5 +1,6 @@
 #include "sweep_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "inner.hpp"
@@ -18,12 +19,16 @@ Eigen::MatrixXd directions(const std::vector<Eigen::VectorXcd>& vectors, Eigen::
     all.col(column++) = filled.real();
     all.col(column++) = filled.imag();
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
-  const auto kept = (svd.singularValues().array() > least * svd.singularValues()[0]).count();
-  return svd.matrixU().leftCols(kept);
+  return orthonormal_part(all);
 }
 
 }  // namespace
+
+Eigen::MatrixXd orthonormal_part(const Eigen::MatrixXd& vectors) {
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(vectors, Eigen::ComputeThinU);
+  const auto kept = (svd.singularValues().array() > least * svd.singularValues()[0]).count();
+  return svd.matrixU().leftCols(kept);
+}
 
 SweepProblem::SweepProblem(const ModesBasis& basis, const std::vector<Eigen::VectorXcd>& vectors)
     : part_(directions(vectors, basis.size())) {
@@ -32,21 +37,25 @@ SweepProblem::SweepProblem(const ModesBasis& basis, const std::vector<Eigen::Vec
   MPI_Bcast(part_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, 0, body.comm());
   problem_.stiffness = part_.transpose() * basis.problem().stiffness * part_;
   problem_.friction = part_.transpose() * basis.problem().friction * part_;
-  const Columns u = basis.shapes() * part_;
-  Columns ku(u.rows(), u.cols());
+  const Eigen::Index size = part_.cols();
+  Columns ku(body.free().size(), size);
   const auto closed = static_cast<Eigen::Index>(body.closed().size());
-  Eigen::MatrixXd reaction(closed, u.cols());
-  for (Eigen::Index k = 0; k < u.cols(); ++k)
-    body.multiply(u.col(k).data(), ku.col(k).data(), reaction.col(k).data());
+  Eigen::MatrixXd reaction(closed, size);
+  constexpr Eigen::Index at_once = 16;  // columns of U, which is as large as K U and needed for nothing else
+  for (Eigen::Index begin = 0; begin < size; begin += at_once) {
+    const Columns u = basis.shapes() * part_.middleCols(begin, std::min(at_once, size - begin));
+    for (Eigen::Index k = 0; k < u.cols(); ++k)
+      body.multiply(u.col(k).data(), ku.col(begin + k).data(), reaction.col(begin + k).data());
+  }
   // G U has rows at the x of closed nodes alone; those of both sides over √m.
-  Eigen::MatrixXd gu = Eigen::MatrixXd::Zero(closed, u.cols()), there = gu;
+  Eigen::MatrixXd gu = Eigen::MatrixXd::Zero(closed, size), there = gu;
   for (Eigen::Index k = 0; k < closed; ++k)
     if (const int place = body.sliding_places()[static_cast<std::size_t>(k)]; place >= 0) {
       const double light = 1 / std::sqrt(mass[place]);
       gu.row(k) = light * body.direction() * reaction.row(k);
       there.row(k) = light * ku.row(place);
     }
-  ku = mass.cwiseSqrt().cwiseInverse().asDiagonal() * ku;
+  ku.array().colwise() /= mass.array().sqrt();
   stiff_ = inner(body.comm(), ku, ku);
   beside_ = inner(body.comm(), gu, there);
   slides_ = inner(body.comm(), gu, gu);

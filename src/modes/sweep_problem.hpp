@@ -4,6 +4,9 @@
 
 namespace slipscale {
 
+/// Orthonormal columns that span the given ones, but for what is little beside the largest.
+Eigen::MatrixXd orthonormal_part(const Eigen::MatrixXd& vectors);
+
 /// The problem in a part of a basis, U = Φ S, and what it takes to tell the residual on the whole body of any
 /// vector of it, for any law, without touching the whole body again.
 class SweepProblem {

@@ -118,8 +118,8 @@ TEST(SeriesFile, BatchesAreWrittenByTime) {
 TEST(SeriesFile, LargeBatchesDoNotWait) {
   const std::string path = scratch("large.h5");
   SeriesFile file(path, 1000);
-  const int u = file.add("/u", {1 << 17}, "m", "a megabyte a row");
-  const std::vector<double> row(1 << 17, 3.0);
+  const int u = file.add("/u", {1 << 14}, "m", "an eighth of a megabyte a row");
+  const std::vector<double> row(1 << 14, 3.0);
   for (int n = 0; n < 10; ++n) {
     file.append(u, row.data());
     file.end_row();

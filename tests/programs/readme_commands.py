@@ -152,7 +152,7 @@ class Place:
         mentioned = len(words) < 3 or any(word == "…" or re.fullmatch("[A-Z]{3,}", word) for word in words)
         if mentioned:
             self.check_options(words[2:], self.run([*command[:2], "-h"]), " ".join(words[:2]))
-        elif words[1] == "sweep" and "--dry-run" not in words:
+        elif words[1] in ("sweep", "plan") and "--dry-run" not in words:
             self.run([*command, "--dry-run"])
         else:
             self.run(command)

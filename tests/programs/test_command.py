@@ -70,7 +70,7 @@ class Command(unittest.TestCase):
 
     def test_the_manual_and_the_version(self):
         manual = self.slipscale("-h")
-        for name in ("picture", "cell-picture", "relocalized-picture", "maps", "adapt", "sweep", "table", "compare",
+        for name in ("picture", "cell-picture", "relocalized-picture", "maps", "plan", "adapt", "sweep", "table", "compare",
                      "scene"):
             self.assertIn(f"\n  {name} ", manual)
             self.assertIn(f"slipscale {name}", self.slipscale(name, "-h"))

@@ -10,6 +10,9 @@ from scenes import block
 from squealing import FILES, RUN, Squealing
 
 
+CELL, SHEAR_SPEED = 5e-3 / 8, math.sqrt(45e9 / 2.5 / 1800)  # m, m/s
+
+
 class Modes(Squealing):
     def setUp(self):
         super().setUp()
@@ -72,6 +75,41 @@ class Modes(Squealing):
         self.assertGreater(compared, 12)
         for limit in sweep["becomes_unstable"]:
             self.assertLessEqual(limit["value"], 0.2)
+
+    def grid_notes(self, said, found):
+        """Notes on waves at grid scale: what was said, and what modes.yaml keeps; they must be the same."""
+        notes = [line.removeprefix("note: ") for line in said.splitlines() if line.startswith("note: ") and "grid" in line]
+        kept = [text for name, text in found["search"].items() if name.startswith("note_") and "grid" in text]
+        self.assertEqual(notes, kept)
+        return notes
+
+    def test_tells_of_waves_at_grid_scale(self):
+        """Of Coulomb's law, and of a memory shorter than the passage of a cell; of none that reaches over two. Cells of
+        0.625 mm, c_s = 3.16 km/s."""
+        coulomb = {"friction_law": "coulomb", "friction_time": None, "friction_threshold": None}
+        (note,) = self.grid_notes(*self.run_modes(**coulomb))
+        self.assertIn("no memory (Coulomb's law)", note)
+        (note,) = self.grid_notes(*self.run_modes(friction_time=0.9 * CELL / SHEAR_SPEED))
+        self.assertIn("short beside the mesh", note)
+        self.assertEqual(self.grid_notes(*self.run_modes(friction_time=2.01 * CELL / SHEAR_SPEED)), [])
+        self.assertEqual(self.grid_notes(*self.run_modes(friction_coefficient=0, **coulomb)), [])
+
+    def test_tells_where_a_sweep_would_open_nodes(self):
+        """The values at which the nodes touch that touch at the scene's own, and no others: each run on its own."""
+        values = [0.05, 0.15, 0.25, 0.35, 0.45]
+        alone = []
+        for value in values:
+            _, found = self.run_modes(friction_coefficient=value, output_folder="alone")
+            alone.append(found["state"]["nodes_in_contact"])
+        self.assertGreater(len(set(alone)), 1)
+        own = 2
+        said, swept = self.run_modes(friction_coefficient=values[own], modes_coefficient="0.05:0.1:0.45", ranks=2)
+        same = [value for value, count in zip(values, alone) if count == alone[own]]
+        self.assertEqual([round(value, 9) for value in swept["sweeps"]["coefficient"]["same_contact"]], [same[0], same[-1]])
+        (note,) = [line for line in said.splitlines() if "the nodes that touch are those of 0.25" in line]
+        self.assertIn(note.removeprefix("note: "), swept["search"].values())
+        said, _ = self.run_modes(friction_coefficient=values[own], modes_time="2e-7:2e-7:1e-6")
+        self.assertNotIn("the nodes that touch are those", said)
 
     def test_files(self):
         self.run_modes(modes_time="2e-7:2e-7:1e-6", modes_shapes=2, modes_frames=4)

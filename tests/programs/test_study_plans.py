@@ -6,7 +6,8 @@ import subprocess
 
 import studies
 
-STUDIES = ("accuracy", "contrast", "equivalence", "refinement", "relocalisation", "stability", "strip", "sweep")
+STUDIES = ("accuracy", "contrast", "equivalence", "plan", "refinement", "relocalisation", "stability", "strip",
+           "sweep")
 
 
 class Plan(studies.StudyCase):

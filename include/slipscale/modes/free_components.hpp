@@ -35,6 +35,8 @@ class FreeComponents {
 
   Eigen::Index size() const { return size_; }  ///< of this rank
   PetscInt total() const { return total_; }
+  /// Where the unknowns of straight sides begin, which are rank 0's last; `size()` where there are none.
+  Eigen::Index side_begin() const { return side_place_; }
   /// Where a component of an owned node stands among this rank's; −1: held, or on a straight side.
   int place_of(int node, int axis) const { return place_[2 * static_cast<std::size_t>(node) + axis]; }
   /// CᵀMC with the plates, which is diagonal, kg/m (of a tilt kg m).

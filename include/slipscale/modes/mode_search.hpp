@@ -9,6 +9,7 @@ struct SearchAim {
   double to = 0;             ///< highest frequency, Hz
   int count = 10;            ///< so many that grow fastest
   double tolerance = 1e-10;  ///< of the residual
+  int looks = 4;             ///< at most, for modes that a larger basis shows and a smaller one did not
 };
 
 struct ModesFound {

@@ -2,6 +2,7 @@
 
 #include "slipscale/modes/mode_search.hpp"
 #include "slipscale/modes/modes_choice.hpp"
+#include "slipscale/modes/steady_sliding.hpp"
 
 namespace slipscale {
 
@@ -32,16 +33,19 @@ struct ModesSweep {
   std::vector<ModePath> paths;
   std::vector<StabilityLimit> limits;
   std::vector<Coupling> couplings;
-  PetscInt basis = 0;          ///< vectors that serve the whole sweep
-  std::vector<double> places;  ///< where modes were found on the whole body
-  double worst = 0;            ///< residual of all points
+  PetscInt basis = 0;                  ///< vectors that serve the whole sweep
+  std::vector<double> places;          ///< where modes were found on the whole body
+  double worst = 0;                    ///< residual of all points
+  std::vector<double> same_contact{};  ///< first and last value at which the same nodes touch; empty: at none
+  std::vector<std::string> notes{};    ///< what is not as asked for
 };
 
 /// Follows the modes that grow fastest at the ends and in the middle, both ways, in a basis of their own
 /// vectors at these places. Where a point's residual on the whole body is too large, the modes are found
-/// there as well and all is followed anew. The closed nodes are those of the scene's own values. Collective.
-ModesSweep sweep_modes(ModesBasis& basis, const Scene& scene, const SweepChoice& choice,
-                       const SearchAim& aim);
+/// there as well and all is followed anew. The closed nodes are those of the scene's own values: where a
+/// coefficient opens or closes others, that is told. Collective.
+ModesSweep sweep_modes(ModesBasis& basis, const SteadySliding& state, const Scene& scene,
+                       const SweepChoice& choice, const SearchAim& aim);
 
 /// The limits and couplings of paths, from their exponents.
 void find_events(ModesSweep& sweep);

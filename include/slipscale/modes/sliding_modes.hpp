@@ -15,6 +15,6 @@ ModesReport find_sliding_modes(ModesBasis& basis, const SteadySliding& state, co
 
 /// What is outside the model or unlikely to be meant: Coulomb's law and a memory that is short beside the
 /// mesh leave the fastest growth to waves of the mesh's own length. Collective.
-std::vector<std::string> remarks_on_modes(const Model& model, const SlidingLaw& law);
+std::vector<std::string> remarks_on_modes(MPI_Comm comm, const Model& model, const Scene& scene);
 
 }  // namespace slipscale

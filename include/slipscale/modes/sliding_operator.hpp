@@ -15,11 +15,11 @@ struct ClosedNode {
 /// Stiffness and friction of a body that slides steadily, for a set of closed nodes, on the free components:
 ///     K = CᵀK̄C,    (G w) in the row of the x of a closed node = ± λ,   λ = (K̄ C w)_y at that node
 /// with the stiffness K̄ of all components, the reaction λ of the held y, and + where the surface moves along
-/// +x. K is factorised once.
+/// +x. K is factorised once, when it is first solved with.
 class SlidingOperator {
  public:
-  /// `direction`: 1 or −1, the sign of the surface's speed. Throws UserError when K cannot be factorised.
-  /// Collective, as are all members that multiply or solve.
+  /// `direction`: 1 or −1, the sign of the surface's speed. Collective, as are all members that multiply
+  /// or solve.
   SlidingOperator(MPI_Comm comm, const Model& model, FreeComponents free, std::vector<ClosedNode> closed,
                   double direction);
   ~SlidingOperator();
@@ -42,11 +42,13 @@ class SlidingOperator {
     for (std::size_t k = 0; k < sliding_.size(); ++k)
       if (sliding_[k] >= 0) r[sliding_[k]] += factor * direction_ * reaction[static_cast<Eigen::Index>(k)];
   }
-  /// K⁻¹ of each column.
+  /// K⁻¹ of each column. Throws UserError when K cannot be factorised.
   Columns solve(const Columns& right) const;
 
  private:
   struct Factor;
+  void factorise() const;
+
   MPI_Comm comm_;
   const Model& model_;
   FreeComponents free_;
@@ -55,7 +57,7 @@ class SlidingOperator {
   std::vector<int> sliding_;
   std::unique_ptr<NodalVector> u_;
   mutable std::vector<Vector2> force_;
-  std::unique_ptr<Factor> factor_;
+  mutable std::unique_ptr<Factor> factor_;
 };
 
 }  // namespace slipscale

@@ -39,4 +39,8 @@ Scene read_sliding_scene(const Options& options, const Mesh& mesh);
 /// surface, for a body that nothing holds, and when no set is left unchanged. Collective.
 SteadySliding steady_sliding(MPI_Comm comm, const Model& model, const Scene& scene);
 
+/// Whether the nodes that are closed in `state` are those that are closed with the coefficient of `scene`,
+/// which may differ from that of the state in it. Collective.
+bool keeps_contact(MPI_Comm comm, const Model& model, const Scene& scene, const SteadySliding& state);
+
 }  // namespace slipscale

@@ -1,9 +1,9 @@
 """Finds the regularisation time with which a homogeneous model rubs as the composite does.
 
-    slipscale adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search]
+    slipscale adapt HETEROGENEOUS HOMOGENEOUS --output FOLDER [--level scaling|frequency|search|modes]
         [--program "mpirun -n 2 slide"] [--match power|friction|frequency|amplitude] [--window FROM TO]
 
-Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. The levels, all three by default:
+Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. The levels, the first three by default:
 
     scaling    T such that ωT is that of the heterogeneous run, ω the dominant frequency of friction
     frequency  T such that at the frequency through which most passes, the homogeneous surface moving and being
@@ -12,6 +12,9 @@ Both are folders of `slide`; the homogeneous run is repeated with its run.yaml. 
     search     T at which the power into the body is that of the heterogeneous run: a scan, then false position.
                Where power is flat or not monotone over the scan, or never equal, mean friction is matched in its
                place, else the frequency; --match asks for one of them, whatever the scan looks like
+    modes      T with which the growing modes of steady sliding have growth and frequency of the heterogeneous block's,
+               from `modes` on the scenes of both runs, without their histories; --free names what else may change with
+               it: --free friction_coefficient material_all_density damping_stiffness
 
 `search` adapts any other number with --parameter, as friction_coefficient or damping_stiffness. --set option=value
 changes the homogeneous model before: --set friction_rate=slip friction_rate_reference=0.2 --parameter friction_length
@@ -30,7 +33,8 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from slipscale.adapting import relaxation, search
+from slipscale.adapting import mode_match, relaxation, search
+from slipscale.adapting.mode_trials import ModeTrials, compared as modes_compared
 from slipscale.adapting.trials import Trials, changed, compared, options_of, spelled_out, value_of
 from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
@@ -41,7 +45,9 @@ from slipscale.reading.yaml_file import load
 from slipscale.running import programs
 from slipscale.running.attempt import number_or_text, write_whole
 
-LEVELS = ("scaling", "frequency", "search")
+LEVELS = ("scaling", "frequency", "search", "modes")
+BY_DEFAULT = LEVELS[:3]
+SCAN = (1.0, 0.25, 0.5, 2.0, 4.0)  # of the relaxation time, of the level of modes
 MATCHES = {"power": "power_into_body", "friction": "friction", "frequency": "frequency", "amplitude": "amplitude"}
 IN_TURN = ("power", "friction", "frequency")
 SHARES = ("stick", "slip", "open")
@@ -62,7 +68,7 @@ class Adaptation:
         self.target = measures(heterogeneous, self.window)
         self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
         options = options_of(homogeneous)
-        of_material = any(name.startswith("material_all_") for name in (asked.parameter, *asked.set))
+        of_material = any(name.startswith("material_all_") for name in (asked.parameter, *asked.set, *asked.free))
         self.options = changed(spelled_out(options) if of_material else options, asked.set)
         self.start = asked.start or value_of(self.options, asked.parameter)
         if not self.start > 0:
@@ -75,7 +81,7 @@ class Adaptation:
         """What a run with this value of the parameter did; the homogeneous run is not repeated."""
         if self.same and math.isclose(value, self.start, rel_tol=1e-9):
             return {self.asked.parameter: self.start, "status": "ok", "reason": None, **self.own}
-        return self.trials.run(**{self.asked.parameter: float(f"{value:.6g}")})
+        return self.trials.run(**{self.asked.parameter: short(value)})
 
     # --- the levels: each gives a dict with the value, or raises Failure
 
@@ -125,6 +131,32 @@ class Adaptation:
         match = (usable or bracketed)[0]
         return {**self.refined(match, values, *seen[match]), **told}
 
+    def modes(self):
+        words, highest = self.asked.modes_program, self.asked.modes_to
+        folder = Path(self.asked.output) / "modes"
+        composite = ModeTrials(words, options_of(self.folders["heterogeneous"]), folder / "heterogeneous", highest).run()
+        if not composite.growing:
+            raise Failure(f"no mode of the heterogeneous block grows up to {highest:.4g} Hz, so that there is nothing to "
+                          "match: see its modes.yaml, or give a higher --modes-to")
+        block = ModeTrials(words, self.options, folder / "homogeneous", highest)
+        before, _ = modes_compared(composite, block.run())
+
+        def evaluate(changes):
+            try:
+                return modes_compared(composite, block.run(**{name: short(value) for name, value in changes.items()}))[0]
+            except UnreadableRun:
+                return math.inf
+
+        start = {name: value_of(self.options, name) for name in ("friction_time", *self.asked.free)}
+        changes, after = mode_match.nearest(evaluate, start, SCAN, self.asked.most_modes)
+        changes = {name: short(value) for name, value in changes.items()}
+        if not after < before:
+            raise Failure(f"modes are not nearer: their misfit is {before:.3g} and no less with any T that was tried",
+                          {"misfit_before": before})
+        return {"value": changes["friction_time"], "changes": changes, "misfit_before": before, "misfit_after": after,
+                "modes_runs": 1 + block.done,
+                "paired": modes_compared(composite, block.run(**changes))[1]}
+
     def refined(self, match, values, scan, found):
         """Of several brackets that whose ends come nearest in spectrum: equal power alone does not tell them apart."""
         quantity, target = MATCHES[match], self.target[MATCHES[match]]
@@ -148,7 +180,7 @@ class Adaptation:
             return {"status": "failed", "reason": failure.args[0], **(failure.args[1] if len(failure.args) > 1 else {})}
         except UnreadableRun as error:
             return {"status": "failed", "reason": str(error)}
-        after = self.trial(found["value"])
+        after = self.trials.run(**found["changes"]) if "changes" in found else self.trial(found["value"])
         if after["status"] != "ok":
             return {"status": "failed", "reason": after["reason"], **found}
         reason = not_adapted(self.own["spectrum_distance"], after["spectrum_distance"], found["value"])
@@ -166,14 +198,20 @@ class Adaptation:
         tried = [row for row in (*self.trials.done, *([self.trial(self.start)] if self.same else []))
                  if row["status"] == "ok"]
         nearest = min(tried, key=lambda row: row["spectrum_distance"], default=None)
+        value_nearest = nearest and nearest.get(self.asked.parameter, self.start)
         good = [name for name, found in levels.items() if found["status"] == "ok"]
         best = min(good, key=lambda name: levels[name]["after"]["spectrum_distance"], default=None)
         return {"parameter": self.asked.parameter, "set": self.asked.set, "window": list(self.window),
                 "start": self.start, "heterogeneous": self.target, "homogeneous": self.own,
                 "before": self.distances(self.own), "levels": levels,
-                "nearest": nearest and {"value": nearest[self.asked.parameter], **self.distances(nearest)},
+                "nearest": nearest and {"value": value_nearest, **self.distances(nearest)},
                 "trials": len(self.trials.done), "status": "ok" if best else "failed", "best": best,
                 "reason": None if best else "; ".join(f"{name}: {found['reason']}" for name, found in levels.items())}
+
+
+def short(value):
+    """As a folder's name and an option have it."""
+    return float(f"{value:.6g}")
 
 
 def not_adapted(before, after, value):
@@ -217,8 +255,8 @@ def parsed(arguments):
     parser.add_argument("heterogeneous")
     parser.add_argument("homogeneous")
     parser.add_argument("--output", required=True, help="folder of adapt.yaml and the trials")
-    parser.add_argument("--level", dest="levels", nargs="+", choices=LEVELS, help="default: all; of another parameter "
-                        "than friction_time only search")
+    parser.add_argument("--level", dest="levels", nargs="+", choices=LEVELS, help="default: the first three; of another "
+                        "parameter than friction_time only search")
     parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside "
                                           "this command)")
     parser.add_argument("--match", choices=tuple(MATCHES))
@@ -229,12 +267,19 @@ def parsed(arguments):
     parser.add_argument("--factor", type=float, default=2.0, help="between values of the scan")
     parser.add_argument("--points", type=int, default=7, help="of the scan")
     parser.add_argument("--most", type=int, default=10, help="trials after the scan")
+    parser.add_argument("--free", nargs="+", default=[], metavar="OPTION", help="numbers that the level of modes may change "
+                        "besides friction_time")
+    parser.add_argument("--modes-to", type=float, default=1e6, help="Hz, highest frequency of modes (default: 1e6)")
+    parser.add_argument("--modes-program", help="words before the options (default: the modes beside this command)")
+    parser.add_argument("--most-modes", type=int, default=40, help="runs of modes after their scan")
     asked = parser.parse_args(arguments)
     asked.program = programs.words_of(asked.program or shlex.quote(str(programs.program("slide"))))
+    if "modes" in (asked.levels or ()):
+        asked.modes_program = programs.words_of(asked.modes_program or shlex.quote(str(programs.program("modes"))))
     asked.set = {name: number_or_text(value) for name, _, value in (word.partition("=") for word in asked.set)}
-    asked.levels = asked.levels or (LEVELS if asked.parameter == "friction_time" else LEVELS[-1:])
+    asked.levels = asked.levels or (BY_DEFAULT if asked.parameter == "friction_time" else ("search",))
     if asked.parameter != "friction_time" and set(asked.levels) != {"search"}:
-        parser.error(f"scaling and frequency speak of friction_time only, {asked.parameter} can be searched for")
+        parser.error(f"scaling, frequency and modes speak of friction_time only, {asked.parameter} can be searched for")
     return asked
 
 

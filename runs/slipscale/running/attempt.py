@@ -4,9 +4,9 @@
         [--restart PROGRAM] [--set name=value ...] -- program arguments ...
 
 outcome.yaml: `options`, what --set names; `status`, ok or failed; `reason`, the last thing said by a program that
-failed; `wall_seconds`; `cpu_seconds`, of all its processes; `command`. After a failure named by --after, the program
-is not run and fails for the same reason. Everything said is in log.txt beside it. The exit code is 0 either way: a
-failure is a result. An interrupted program (SIGINT, SIGTERM, SIGHUP, SIGUSR1, or stopped by itself: exit code 3) is none:
+failed; `wall_seconds`; `cpu_seconds`, of all its processes; `peak_memory`, B, the most that one of them held; `command`.
+After a failure named by --after, the program is not run and fails for the same reason. Everything said is in log.txt
+beside it. The exit code is 0 either way: a failure is a result. An interrupted program (SIGINT, SIGTERM, SIGHUP, SIGUSR1, or stopped by itself: exit code 3) is none:
 it leaves no outcome, and the exit code is 1. --restart: see `going_on`.
 """
 
@@ -111,6 +111,12 @@ def cpu_seconds():
     return used.ru_utime + used.ru_stime
 
 
+def peak_memory():
+    """The most that one of the processes started and ended so far held, B: of this run alone where it was the only
+    one."""
+    return 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+
+
 def attempt(outcome, command, options=None, after=(), limit=None, restart=None):
     """Runs `command` and writes the outcome (a path). Returns what was written, as a dict. `restart`: the word of the
     command that names a program with checkpoints, see `going_on`. Raises KeyboardInterrupt."""
@@ -134,7 +140,7 @@ def attempt(outcome, command, options=None, after=(), limit=None, restart=None):
         reason = run(command, log, limit)[1]
     wall, cpu = used()
     found = {"options": options or {}, "status": "failed" if reason else "ok", "reason": reason,
-             "wall_seconds": round(wall, 3), "cpu_seconds": round(cpu, 3), "command": shlex.join(command)}
+             "wall_seconds": round(wall, 3), "cpu_seconds": round(cpu, 3), "peak_memory": peak_memory(), "command": shlex.join(command)}
     write_whole(outcome, yaml.safe_dump(found, sort_keys=False, allow_unicode=True, width=1000))
     if begun:
         begun.forget()

@@ -59,6 +59,25 @@ class Adapt(unittest.TestCase):
         self.assertEqual(self.run_adapt("--level", "search")[1], found)
         self.assertEqual(calls.read_text(), before)
 
+    def test_modes_of_the_same_growth_give_the_time(self):
+        words = ("--level", "modes", "--modes-program", f"{sys.executable} -m tests.fake_modes", "--most-modes", "12")
+        code, found, _ = self.run_adapt(*words)
+        level = found["levels"]["modes"]
+        self.assertEqual((code, found["best"]), (0, "modes"))
+        self.assertAlmostEqual(level["value"] / TRUTH, 1, delta=0.01)
+        self.assertGreater(level["misfit_before"], 0.5)
+        self.assertLess(level["misfit_after"], 0.01)
+        self.assertEqual([row["frequency"] for row in level["paired"]], [row["partner_frequency"] for row in level["paired"]])
+        _, found, _ = self.run_adapt(*words, "--most-modes", "2", "--free", "friction_coefficient")
+        self.assertEqual(set(found["levels"]["modes"]["changes"]), {"friction_time", "friction_coefficient"})
+
+    def test_modes_that_do_not_grow_give_no_time(self):
+        (self.folder / "truth" / "run.yaml").write_text(
+            (self.folder / "truth" / "run.yaml").read_text().replace("friction_coefficient: 0.5", "friction_coefficient: 0"))
+        code, found, _ = self.run_adapt("--level", "modes", "--modes-program", f"{sys.executable} -m tests.fake_modes")
+        self.assertEqual(code, 1)
+        self.assertIn("no mode of the heterogeneous block grows up to 1e+06 Hz", found["reason"])
+
     def test_scaling_keeps_frequency_times_time(self):
         _, found, _ = self.run_adapt("--level", "scaling")  # both runs have one frequency
         self.assertAlmostEqual(found["levels"]["scaling"]["value"] / TRUTH, 1, delta=1e-3)

@@ -47,6 +47,12 @@ class Attempt(unittest.TestCase):
         found = self.main("--", sys.executable, "-c", busy)[1]
         self.assertTrue(0.3 <= found["cpu_seconds"] <= found["wall_seconds"] + 0.05, found)  # one process, one core
 
+    def test_memory(self):
+        """In a process of its own, as studies start it: 200 MB that the program fills."""
+        subprocess.run([sys.executable, "-m", "slipscale.running.attempt", self.outcome, "--", sys.executable, "-c",
+                        "filled = bytearray(b'x') * 200_000_000"], check=True, cwd=RUNS)
+        self.assertTrue(200e6 <= yaml.safe_load(self.outcome.read_text())["peak_memory"] < 300e6)
+
     def test_failure_is_kept_with_its_last_words(self):
         code, found = self.main("--", "sh", "-c", "echo working; echo 'prog: no such mesh' >&2; echo; exit 2")
         self.assertEqual((code, found["status"], found["reason"]), (0, "failed", "prog: no such mesh"))
