@@ -40,12 +40,15 @@ void homogenize(Options& options) {
   const Mesh mesh = homogenisation_mesh(comm, choice);
   print_notes(mesh.notes);
   const std::vector<Material> materials = read_phases(options, mesh);
+  const std::vector<double> coefficients = read_coefficients(options, mesh.region_names());
   end_reading(options);
 
   Homogenised found = homogenise(comm, choice, mesh, materials, [&](const CellSolution& first) {
     print_notes(first.notes);
     options.refuse_unknown();
   });
+
+  found.coefficients = coefficients;
 
   // Only now do the files of an older run give way.
   const OutputFolder folder(comm, choice.folder, {"effective.yaml", "localization.h5", "localization.xdmf"});

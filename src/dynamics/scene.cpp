@@ -8,6 +8,7 @@
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/dynamics/formulas.hpp"
+#include "slipscale/mesh/boundary_cells.hpp"
 
 namespace slipscale {
 namespace {
@@ -40,6 +41,14 @@ void refuse_held_contact(const std::vector<BoundaryCondition>& conditions, const
       throw UserError("-boundary_" + boundary +
                       "_y prescribes the motion of the boundary that -surface_boundary names, " +
                       "so that none of it could meet the surface; make it free, or name another boundary");
+}
+
+/// Whether an edge of the boundary belongs to each region. Collective.
+std::vector<char> regions_at(const Mesh& mesh, const Boundary& boundary) {
+  std::vector<char> touches(mesh.regions.size(), 0);
+  for (const int cell : boundary_cells(mesh, boundary)) touches[mesh.cells.region[cell]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, touches.data(), static_cast<int>(touches.size()), MPI_CHAR, MPI_MAX, mesh.comm);
+  return touches;
 }
 
 void read_body_acceleration(const Options& options, const Mesh& mesh, Scene& scene) {
@@ -79,6 +88,7 @@ std::vector<std::string> unsteady_formulas(const Scene& scene) {
   name(scene.surface && scene.surface->height_formula, "surface_height");
   name(scene.surface && scene.surface->speed_formula, "surface_speed");
   name(scene.friction.coefficient_formula != nullptr, "friction_coefficient");
+  name(!scene.friction.phases.empty(), "friction_<region>_coefficient");
   return names;
 }
 
@@ -132,10 +142,15 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
     const auto& nodes = mesh.find_boundary(scene.surface->boundary)->nodes;
     check_at(options, "surface_height", {scene.surface->height, scene.surface->height_formula}, mesh, nodes);
     check_at(options, "surface_speed", {scene.surface->speed, scene.surface->speed_formula}, mesh, nodes);
-    scene.friction = read_friction(options, *scene.surface);
+    scene.friction = read_friction(options, *scene.surface, mesh.region_names(),
+                                   regions_at(mesh, *mesh.find_boundary(scene.surface->boundary)));
     check_at(options, "friction_coefficient", scene.friction.mu(), mesh, nodes);
+    for (std::size_t r = 0; r < scene.friction.phases.size(); ++r)
+      if (const std::string name = "friction_" + mesh.regions[r].name + "_coefficient"; options.given(name))
+        check_at(options, name, scene.friction.phases[r].coefficient, mesh, nodes);
   } else {
-    auto idle = names_in(surface_schema() + friction_schema());
+    auto idle = names_in(surface_schema());
+    for (const std::string& name : friction_options(mesh.region_names())) idle.push_back(name);
     std::erase(idle, "surface_boundary");
     options.refuse_idle(idle, without_surface);
   }

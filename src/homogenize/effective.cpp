@@ -77,6 +77,17 @@ bool is_isotropic(const Eigen::Matrix3d& c) {
          1e-9 * c.cwiseAbs().maxCoeff();
 }
 
+double effective_friction(const std::vector<double>& fractions, const std::vector<double>& coefficients,
+                          double poisson) {
+  const double beta = (1 - 2 * poisson) / (2 * (1 - poisson));
+  double angle = 0, whole = 0;
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
+    angle += fractions[k] * std::atan(beta * coefficients[k]);
+    whole += fractions[k];
+  }
+  return std::tan(angle / whole) / beta;
+}
+
 std::optional<HashinShtrikman> hashin_shtrikman(const std::vector<Phase>& phases) {
   const std::vector<Phase> distinct = elastic_phases(phases);
   if (distinct.size() != 2) return std::nullopt;

@@ -104,6 +104,14 @@ void write_bounds(Yaml& yaml, const Homogenised& found) {
   yaml.end();
 }
 
+void write_friction(Yaml& yaml, const Homogenised& found) {
+  const auto friction = friction_of_phases(found);
+  if (!friction) return;
+  yaml.number("friction_coefficient", friction->effective,
+              "of the face in slow sliding, tan<arctan(beta mu)>/beta over the fractions of the phases");
+  yaml.number("friction_mean", friction->mean, "mean of the phases' coefficients");
+}
+
 void write_waves(Yaml& yaml, const Material& material) {
   const WaveSpeeds x = wave_speeds(material, 1, 0), y = wave_speeds(material, 0, 1);
   yaml.numbers("wave_speeds_x", {x.fast, x.slow}, "m/s, of plane waves along x");
@@ -134,6 +142,7 @@ std::string effective_yaml(const Homogenised& found, const std::map<std::string,
   if (const auto identity = two_phase_residual(found))
     yaml.number("two_phase_identity", *identity, "residual of f (C2 - C1):<A>2 = C_eff - C1");
   write_waves(yaml, material);
+  write_friction(yaml, found);
   yaml.number("memory", found.memory, "B, of all ranks").number("seconds", found.seconds, "in all");
   yaml.begin("options", "in effect");
   for (const auto& [option, value] : effective) yaml.text(option, value);

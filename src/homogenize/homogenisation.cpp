@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
 
 namespace slipscale {
@@ -63,6 +64,9 @@ Schema homogenisation_schema() {
        "true",
        {},
        "solve once more on the uniformly refined mesh for an error bar; costs about five times the run"},
+      {"friction_<region>_coefficient", Kind::real, "1", absent, range::physical_non_negative,
+       "coefficient of friction of that phase; with those of all phases the report has that of the whole "
+       "face"},
       {"output_folder",
        Kind::text,
        "",
@@ -75,6 +79,25 @@ Schema homogenisation_schema() {
 HomogenisationChoice read_homogenisation(const Options& options) {
   return {mesh_source(options), boundaries(options.text("cell_boundary")),
           options.flag("cell_estimate_error"), options.text("output_folder")};
+}
+
+std::vector<double> read_coefficients(const Options& options, const std::vector<std::string>& regions) {
+  std::vector<double> coefficients;
+  std::string missing, given;
+  for (const std::string& region : regions) {
+    const std::string name = "friction_" + region + "_coefficient";
+    if (const auto mu = options.find_real(name)) {
+      coefficients.push_back(*mu);
+      given = name;
+    } else {
+      missing = name;
+    }
+  }
+  if (!given.empty() && !missing.empty())
+    throw UserError("-" + given +
+                    " is given, but the friction of the whole face needs that of every phase; give -" +
+                    missing + " as well, or neither");
+  return coefficients;
 }
 
 Mesh homogenisation_mesh(MPI_Comm comm, const HomogenisationChoice& choice) {

@@ -270,6 +270,19 @@ std::vector<std::string> doubts(const Homogenised& found) {
   return all;
 }
 
+std::optional<FrictionOfPhases> friction_of_phases(const Homogenised& found) {
+  if (found.coefficients.empty()) return std::nullopt;
+  std::vector<double> fractions;
+  double sum = 0, whole = 0;
+  for (std::size_t k = 0; k < found.coefficients.size(); ++k) {  // holes come after the regions
+    fractions.push_back(found.phases[k].fraction);
+    sum += fractions[k] * found.coefficients[k];
+    whole += fractions[k];
+  }
+  const double poisson = engineering_constants(effective_material(found).stiffness).poisson;
+  return FrictionOfPhases{effective_friction(fractions, found.coefficients, poisson), sum / whole};
+}
+
 std::string describe(const Homogenised& found) {
   const Material material = effective_material(found);
   const EngineeringConstants constants = engineering_constants(material.stiffness);
@@ -280,6 +293,11 @@ std::string describe(const Homogenised& found) {
   text += constants_text(constants) + "\n";
   text += voigt_reuss_text(found) + "\n" + hashin_shtrikman_text(found, constants) + "\n";
   text += residuals_text(found) + "\n" + waves_text(material) + "\n";
+  if (const auto friction = friction_of_phases(found))
+    text += format(
+        "friction of the face in slow sliding: {:.4g}, from tan<arctan(beta mu)>/beta; the mean of the "
+        "phases' coefficients is {:.4g}\n",
+        friction->effective, friction->mean);
   text += cost_text(found);
   for (const std::string& doubt : doubts(found)) text += "warning: " + doubt + "\n";
   return text;

@@ -116,7 +116,7 @@ void Observer::observe_contact(Observation& seen) const {
   for (int k = 0; k < contact.size(); ++k) {
     const Vector2 &u = body_.displacement_n()[contact.node[k]], &v = body_.velocity_n()[contact.node[k]];
     mine.insert(mine.end(),
-                {u[0], u[1], v[0], v[1], contact.clearance[k] + u[1], contact.memory[k].traction,
+                {u[0], u[1], v[0], v[1], contact.clearance_now(k) + u[1], contact.memory[k].traction,
                  contact.traction[k], contact.force[k][1], static_cast<double>(contact.status[k])});
   }
   const auto all = contact_gather_(mine, width);

@@ -57,6 +57,28 @@ Scene sliding_block(double stiffness_damping, bool uniform) {
   return scene;
 }
 
+/// The same with formulas of time at the top and along the contact.
+Scene following(Scene scene) {
+  const auto formula = [](const std::string& text, const std::string& variables) {
+    return std::make_shared<const Formula>(text, variables, Formula::Names{}, "a formula of the benchmark");
+  };
+  scene.conditions[0].displacement_formula[1] = formula("1 + 0.01*sin(1e6*t)*x", "xyt");
+  scene.friction.coefficient_formula = formula("1 + 0.1*sin(1e6*t)*x", "xt");
+  return scene;
+}
+
+/// The same with sides that let waves out.
+Scene open_sides(Scene scene, const Mesh& mesh) {
+  for (const char* side : {"left", "right"}) {
+    if (!mesh.find_boundary(side)) continue;
+    BoundaryCondition condition;
+    condition.boundary = side;
+    condition.absorbing = true;
+    scene.conditions.push_back(condition);
+  }
+  return scene;
+}
+
 OwnedMat product(const Mesh& mesh, const std::vector<Material>& materials, MatType type) {
   if (std::string(type) != MATSEQSELL) return assembled_stiffness(PETSC_COMM_SELF, mesh, materials, type);
   OwnedMat matrix, from = assembled_stiffness(PETSC_COMM_SELF, mesh, materials, MATSEQAIJ);
@@ -81,6 +103,8 @@ void measure(const Mesh& mesh, int repetitions) {
   SlidingBody undamped(PETSC_COMM_SELF, model, sliding_block(0, uniform), limit);
   SlidingBody undamped_pairs(PETSC_COMM_SELF, visited, sliding_block(0, uniform), limit);
   SlidingBody undamped_base(PETSC_COMM_SELF, plain, sliding_block(0, uniform), limit);
+  SlidingBody follows(PETSC_COMM_SELF, model, following(sliding_block(0, uniform)), limit);
+  SlidingBody open(PETSC_COMM_SELF, model, open_sides(sliding_block(0, uniform), mesh), limit);
   SlidingBody damped(PETSC_COMM_SELF, model, sliding_block(2e-9, uniform), limit);
   SlidingBody damped_single(PETSC_COMM_SELF, single, sliding_block(2e-9, uniform), limit);
   NodalVector u(PETSC_COMM_SELF, mesh.nodes, true), f(PETSC_COMM_SELF, mesh.nodes, true);
@@ -95,6 +119,8 @@ void measure(const Mesh& mesh, int repetitions) {
       {"step", [&] { undamped.advance(false); }},
       {"step, pairs", [&] { undamped_pairs.advance(false); }},
       {"step, base instructions", [&] { undamped_base.advance(false); }},
+      {"step, formulas of time", [&] { follows.advance(false); }},
+      {"step, open sides", [&] { open.advance(false); }},
       {"step, stiffness damping", [&] { damped.advance(false); }},
       {"the same, single", [&] { damped_single.advance(false); }},
   };

@@ -25,7 +25,7 @@ class Step(unittest.TestCase):
     def test_figures(self):
         for shape in ("general", "quadrilaterals"):
             found = figures(os.environ["BENCH_STEP"], "-nodes", "1000", "-repetitions", "3", "-shape", shape)
-            self.assertEqual(len(found), 10, found)
+            self.assertEqual(len(found), 12, found)
             self.assertEqual(found["MATBAIJ product"][2], 1)
             for name, (median, least, ratio) in found.items():
                 self.assertTrue(0 < least <= median and ratio > 0, name)

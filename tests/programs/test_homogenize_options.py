@@ -47,6 +47,14 @@ ITERATIONS = lambda run: np.array(run.facts["periodic"]["cost"]["iterations"])
 ERROR_BARS = lambda run: int("discretisation_error_xx" in run.facts["periodic"])
 CONTRADICTED = Idle({"material_inclusion_file": "four_times.yaml"}, "contradicts -material_inclusion_file; give one")
 
+RUBS = {"friction_matrix_coefficient": 0.5, "friction_inclusion_coefficient": 0.5}
+
+
+def becomes_mean(before, after):
+    """Of .5 and 0 by the fractions of matrix and inclusion, from .5."""
+    return abs(before - 0.5) < 1e-9 and 0.2 < after < 0.45
+
+
 # `OPTION` among the changes stands for the option itself, `<region>` is `inclusion`.
 ROWS = {
     "mesh_file": Row([Answer({"OPTION": "fine.msh"}, CELLS, more)], ALWAYS),
@@ -80,6 +88,11 @@ ROWS = {
                           Answer({"OPTION": "all"}, CONDITIONS, becomes(3))], ALWAYS),
     "cell_estimate_error": Row([Answer({"OPTION": "false"}, ERROR_BARS, becomes(0)),
                                 Answer({"OPTION": "false"}, diagonal, same)], ALWAYS),
+    "friction_<region>_coefficient": Row(
+        [Answer({"OPTION": 0}, lambda run: run.facts["friction_mean"], becomes_mean, base=RUBS),
+         Answer({"OPTION": 0}, lambda run: run.facts["friction_coefficient"] / run.facts["friction_mean"], less, base=RUBS),
+         Answer({"OPTION": 0.5}, lambda run: run.facts["friction_coefficient"], same, base=RUBS)],
+        [Idle({"OPTION": 0.5}, "needs that of every phase; give -friction_matrix_coefficient")]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/effective.yaml" in run.files),
                                  more)], ALWAYS),
     # A place for information; the only option that promises to do nothing.

@@ -167,6 +167,21 @@ class Scene:
             self.number("friction_coefficient", 0.5)
         if law == "regularized":
             self.memory()
+        if law != "none" and self.often(0.2):
+            self.phase(law)
+
+    def phase(self, law):
+        """Constants of the region that surely touches the surface, where there is but one."""
+        regions = regions_of(self.mesh)
+        if len(regions) > 1:
+            return
+        self.number(f"friction_{regions[0]}_coefficient", 0.5)
+        if law != "regularized":
+            return
+        if self.options.get("friction_rate") == "slip" or self.often(0.5):
+            self.number(f"friction_{regions[0]}_length", 1e-6)
+        else:
+            self.number(f"friction_{regions[0]}_time", 6e-7)
 
     def memory(self):
         self.word("friction_rate")

@@ -162,7 +162,7 @@ TEST(FrictionLimits, RestingSurfaceNeedsATime) {
       petsc(PetscOptionsSetValue(nullptr, option, text));
     std::string said = "none";
     try {
-      (void)read_friction(Options("slide", friction_schema()), Surface{"bottom", 0, 0, 0});
+      (void)read_friction(Options("slide", friction_schema()), Surface{"bottom", 0, 0, 0}, {}, {});
     } catch (const UserError& error) {
       said = error.what();
     }

@@ -42,6 +42,8 @@ class ContactNodes {
     rise[k] = clearance[k] - next_clearance;
     clearance[k] = next_clearance;
   }
+  /// The same at t_n.
+  double clearance_now(int k) const { return rise[k] == 0 ? clearance[k] : clearance[k] + rise[k]; }
 
   /// `law` is one for all nodes or a std::vector of them, [nodes].
   /// Signorini and friction at every node: 0 ≤ λ ⟂ gap_{n+1} ≥ 0, then the law. `before` [slots] is u_n.

@@ -19,6 +19,20 @@ using FrictionLaws =
                  std::vector<RegularisedInstantaneous>, std::vector<RegularisedStrength>,
                  std::vector<SlipRate<RegularisedInstantaneous>>, std::vector<SlipRate<RegularisedStrength>>>;
 
+/// Constants of a law, which may differ from region to region.
+struct FrictionConstants {
+  Quantity coefficient;  ///< μ
+  double time = 0;       ///< T, s (`rate: surface`)
+  double length = 0;     ///< L, m (`rate: slip`)
+};
+
+/// A contact node: where it is, and the regions of the one or two edges that meet in it.
+struct ContactPlace {
+  Vector2 place{};              ///< undeformed, m
+  std::array<int, 2> region{};  ///< index into Mesh::regions; of one edge both the same
+  double second = 0;            ///< part of the tributary length that is of the second region
+};
+
 /// What the user asks of friction; independent of the time step.
 struct FrictionChoice {
   enum class Law { none, coulomb, regularized } law = Law::none;
@@ -30,24 +44,39 @@ struct FrictionChoice {
   double rate_reference = 0;               ///< V*, m/s (`rate: slip`)
   SharedFormula coefficient_formula = {};  ///< then μ is the coefficient, 1, times it
 
+  /// By region, where some have constants of their own; else empty. A node between two regions has the mean
+  /// of theirs by tributary length.
+  std::vector<FrictionConstants> phases = {};
+  std::vector<std::string> phase_texts = {};  ///< of those, for the terminal
+
   Quantity mu() const { return {coefficient, coefficient_formula}; }
-  bool varies() const { return coefficient_formula != nullptr; }  ///< along the contact or in time
+  bool varies() const {  ///< along the contact or in time
+    return coefficient_formula || !phases.empty();
+  }
+  bool of_time() const;  ///< some coefficient follows a formula of time
 };
 
 Schema friction_schema();
 
-/// Reads the law and its constants; T = L*/|V| comes from the surface. Throws UserError for a missing or
-/// contradictory constant, and for `rate: surface` with V = 0 when T itself is not given.
-FrictionChoice read_friction(const Options& options, const Surface& surface);
+/// The names of all options of friction, for those who refuse them.
+std::vector<std::string> friction_options(const std::vector<std::string>& regions);
+
+/// Reads the law and its constants; T = L*/|V| comes from the surface. `regions`: those of the mesh, and
+/// whether each touches the surface. Throws UserError for a missing or contradictory constant, for one of a
+/// region that does not touch the surface, and for `rate: surface` with V = 0 when T itself is not given.
+FrictionChoice read_friction(const Options& options, const Surface& surface,
+                             const std::vector<std::string>& regions, const std::vector<char>& touches);
 
 /// The law where `time_step` [s] has passed since the memory was kept; 0 answers the memory itself. Without a
 /// time or length to relax over it is Coulomb's.
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step);
 
 /// The same for contact nodes; one law each where the choice varies, with its constants at t = 0.
-FrictionLaws friction_laws(const FrictionChoice& choice, double time_step, const std::vector<Vector2>& nodes);
+FrictionLaws friction_laws(const FrictionChoice& choice, double time_step,
+                           const std::vector<ContactPlace>& nodes);
 /// Gives laws that follow a formula of time the coefficients of `time`. False where one is no coefficient.
-bool follow(const FrictionChoice& choice, double time, const std::vector<Vector2>& nodes, FrictionLaws& laws);
+bool follow(const FrictionChoice& choice, double time, const std::vector<ContactPlace>& nodes,
+            FrictionLaws& laws);
 
 /// The relaxation time T of a node that slips with the surface's full speed, s; infinite for a law without
 /// memory.

@@ -133,7 +133,7 @@ class SlidingBody {
   std::unique_ptr<StraightSides> straight_;
   std::unique_ptr<AbsorbingSides> absorbing_;
   ContactNodes contact_;
-  std::vector<Vector2> contact_places_;  ///< of the contact nodes, undeformed, m
+  std::vector<ContactPlace> contact_places_;  ///< of the contact nodes
   FrictionLaws law_;
   FrictionLaws start_law_;  ///< at t = 0, where no time has passed since the memory
   BodyAcceleration body_acceleration_;

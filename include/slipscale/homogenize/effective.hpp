@@ -61,6 +61,15 @@ struct EngineeringConstants {
 };
 EngineeringConstants engineering_constants(const Eigen::Matrix3d& stiffness);
 
+/// The coefficient of friction of a face on which phases with coefficients of their own alternate,
+/// `fractions` of its length, once it slides slowly, in contact and in slip everywhere:
+///     tan⟨arctan βμ⟩/β,   β = (1 − 2ν)/(2(1 − ν)),
+/// for a half-plane of one stiffness whose phases are small against it (derived and tested in
+/// tests/verification/friction_of_phases.cpp); less than the mean, since the pressure is less where friction
+/// is more. The fractions need not add up to 1.
+double effective_friction(const std::vector<double>& fractions, const std::vector<double>& coefficients,
+                          double poisson);
+
 /// Residual of f (C₂ − C₁):⟨A⟩₂ = C_eff − C₁ for two phases, over the size of the left side (or a millionth
 /// of C_eff, where the phases hardly differ). `mean_second` is ⟨A⟩₂, the mean of A over the second phase.
 double two_phase_identity(const std::vector<Phase>& phases, const Eigen::Matrix3d& stiffness,

@@ -19,6 +19,10 @@ struct HomogenisationChoice {
 };
 
 Schema homogenisation_schema();
+
+/// The phases' coefficients of friction, by region; empty where none is given. Throws UserError for some
+/// without the others.
+std::vector<double> read_coefficients(const Options& options, const std::vector<std::string>& regions);
 HomogenisationChoice read_homogenisation(const Options& options);
 
 /// The mesh of the first boundary condition: a torus for periodic ones, the same block with its sides open

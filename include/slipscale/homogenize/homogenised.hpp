@@ -18,6 +18,7 @@ struct Homogenised {
       solutions;  ///< one for each boundary condition asked for; the first is the result
   std::vector<Eigen::Matrix3d> refined;  ///< C_eff on the once refined mesh, one for each solution; or empty
   std::vector<Eigen::Matrix3d> phase_means;  ///< ⟨A⟩ over each of `phases`, of the first solution; or empty
+  std::vector<double> coefficients;          ///< of friction, by region; or empty
   PetscInt cells = 0, nodes = 0;
   std::uint64_t mesh_checksum = 0;  ///< Mesh::checksum
   int ranks = 1;
@@ -40,6 +41,13 @@ std::optional<double> two_phase_residual(const Homogenised& found);
 
 /// Richardson's estimate for one of the solutions; absent without refined mesh.
 std::optional<Richardson> discretisation_error(const Homogenised& found, std::size_t solution);
+
+/// The coefficient of the effective material's face, and the mean of those of its phases; of phases that show
+/// as much of themselves on the face as they fill of the cell. Absent where theirs are not known.
+struct FrictionOfPhases {
+  double effective = 0, mean = 0;
+};
+std::optional<FrictionOfPhases> friction_of_phases(const Homogenised& found);
 
 /// What makes the stiffness doubtful, a sentence each without stop: bounds that it violates, elements that
 /// lock. They stand in effective.yaml, and who reads it hears of them.

@@ -98,6 +98,8 @@ def condition_words(conditions):
         value = number_or_text(str(conditions.get(load, 0)))
         if isinstance(value, (int, float)) and value:
             said.append(f"{symbol} = {engineering(value, 'Pa')}")
+        elif isinstance(value, str):  # a formula
+            said.append(f"{symbol} = {value}")
     known = {*SIDES, *LOADS, "ramp"}
     said += [f"{name} {value}" for name, value in conditions.items() if name not in known]
     ramp = number_or_text(str(conditions.get("ramp", 0)))

@@ -1,0 +1,119 @@
+"""Friction of each phase: its own constants act where it touches, equal ones have the bits of one law for all."""
+
+import unittest
+
+import numpy as np
+from running import InScratch, arguments_of, datasets
+from scenes import SIDE, SQUEAL
+
+REGIONS = ("matrix", "inclusion")
+STRIPES, DIVISIONS = 4, 3
+
+
+def striped(folder, name="block.msh"):
+    """A block of stripes, matrix and inclusion in turn, of squares; a layer of matrix only, `back`, above them."""
+    edge, half = SIDE / STRIPES, SIDE / 2
+    lines = []
+    for row, y in enumerate((0, half, SIDE)):
+        lines += [f"Point({100 * row + k + 1}) = {{{k * edge}, {y}, 0}};" for k in range(STRIPES + 1)]
+        lines += [f"Line({1000 + 100 * row + k}) = {{{100 * row + k + 1}, {100 * row + k + 2}}};" for k in range(STRIPES)]
+    for row in (0, 1):
+        lines += [f"Line({2000 + 100 * row + k}) = {{{100 * row + k + 1}, {100 * row + k + 101}}};" for k in range(STRIPES + 1)]
+        for k in range(STRIPES):
+            surface = 100 * row + k + 1
+            lines += [f"Curve Loop({surface}) = {{{1000 + 100 * row + k}, {2000 + 100 * row + k + 1}, "
+                      f"-{1100 + 100 * row + k}, -{2000 + 100 * row + k}}};", f"Plane Surface({surface}) = {{{surface}}};"]
+    lines += [f"Transfinite Curve{{1000:1299}} = {DIVISIONS + 1};", f"Transfinite Curve{{2000:2199}} = {2 * DIVISIONS + 1};",
+              "Transfinite Surface{:}; Recombine Surface{:};"]
+    for index, region in enumerate(REGIONS):
+        lines.append(f'Physical Surface("{region}") = {{{", ".join(str(k + 1) for k in range(index, STRIPES, 2))}}};')
+    lines += [f'Physical Surface("back") = {{101:{100 + STRIPES}}};', f'Physical Curve("bottom") = {{1000:{999 + STRIPES}}};',
+              f'Physical Curve("top") = {{1200:{1199 + STRIPES}}};']
+    (folder / "striped.geo").write_text("\n".join(lines) + "\n")
+    return ["-v", "1", "-2", "-format", "msh41", "striped.geo", "-o", name]
+
+
+SCENE = {**SQUEAL, "contact_every": 10, "fields_every": 200, "time_end": 20e-6}
+COULOMB = {"friction_law": "coulomb", "friction_time": None, "friction_threshold": None}
+BY_SLIP_RATE = {"friction_time": None, "friction_rate": "slip", "friction_length": 1.2e-6, "friction_rate_reference": 0.1}
+OWN = {"friction_matrix_coefficient": 0.2, "friction_inclusion_coefficient": 0.6}
+
+
+class Phases(InScratch):
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.launch("gmsh", *striped(self.folder)).codes, [0])
+
+    def assert_same_bits(self, left, right):
+        for file in ("history.h5", "contact.h5", "fields.h5"):
+            one, two = (datasets(self.folder / folder / file) for folder in (left, right))
+            for name in one:
+                self.assertEqual(one[name].tobytes(), two[name].tobytes(), f"{file}: {name}")
+
+    def test_equal_constants_are_one_law(self):
+        cases = {"coulomb": (COULOMB, {}), "time": ({}, {"time": 0.6e-6}), "length": ({}, {"length": 1.2e-6}),
+                 "instantaneous": ({"friction_threshold": None}, {"time": 0.6e-6}),
+                 "slip rate": (BY_SLIP_RATE, {"length": 1.2e-6})}
+        for name, (law, memory) in cases.items():
+            with self.subTest(name):
+                if name == "length":
+                    law = {"friction_time": None, "friction_length": 1.2e-6}
+                self.run_scene({**SCENE, **law, "output_folder": "one"})
+                own = {f"friction_{region}_{key}": value for region in REGIONS
+                       for key, value in {"coefficient": 0.5, **memory}.items()}
+                self.run_scene({**SCENE, **law, **own, "output_folder": "each"}, ranks=2)
+                self.assert_same_bits("one", "each")
+
+    def test_each_rubs_with_its_own(self):
+        for ranks in (1, 2):
+            self.run_scene({**SCENE, **COULOMB, **OWN, "output_folder": f"out{ranks}"}, ranks=ranks)
+        self.assert_same_bits("out1", "out2")
+        seen = datasets(self.folder / "out2" / "contact.h5")
+        stripe = seen["x"] / (SIDE / STRIPES)
+        between = np.abs(stripe - np.round(stripe)) < 1e-9
+        inner = between & (stripe > 0.5) & (stripe < STRIPES - 0.5)
+        mu = np.where(np.minimum(np.floor(stripe), STRIPES - 1) % 2 == 0, 0.2, 0.6)
+        mu[np.isclose(stripe, STRIPES)] = 0.6
+        mu[inner] = 0.4  # edges of equal length
+        slips = seen["status"] == 2
+        self.assertTrue(slips.any(axis=0).all())
+        np.testing.assert_allclose(np.abs(seen["tangential_traction"])[slips],
+                                   (mu[None, :] * seen["normal_traction"])[slips], rtol=1e-11)
+        history = datasets(self.folder / "out2" / "history.h5")
+        self.assertLess(np.abs(history["energy/residual"] / history["energy/flowed"])[1:].max(), 1e-10)
+
+    def test_one_phase_alone_differs(self):
+        """The others have the constants of all; a memory of its own as well, and a formula of the place."""
+        self.run_scene({**SCENE, "friction_matrix_coefficient": 0.5, "friction_inclusion_time": 1e-7, "output_folder": "a"})
+        self.run_scene({**SCENE, "friction_inclusion_length": 2e-7, "output_folder": "b"}, ranks=2)  # T = L*/|V|, V = 2 m/s
+        self.assert_same_bits("a", "b")
+        self.run_scene({**SCENE, "output_folder": "c"})
+        with self.assertRaises(AssertionError):
+            self.assert_same_bits("a", "c")
+        self.run_scene({**SCENE, "friction_matrix_coefficient": "0.5 + 0.1*x/L", "output_folder": "d"}, ranks=2)
+
+    def test_a_run_goes_on(self):
+        scene = {**SCENE, **OWN, "friction_inclusion_time": 1e-7}
+        self.run_scene(scene, output_folder="whole")
+        self.run_scene({**scene, "time_end": 10e-6}, ranks=2, output_folder="halves")
+        outcome = self.slide("-restart", "halves", "-time_end", scene["time_end"])
+        self.assertEqual(outcome.codes, [0], outcome.err)
+        self.assert_same_bits("whole", "halves")
+
+    def test_refused(self):
+        for changes, words in (
+                ({"friction_back_coefficient": 0.3}, ["-friction_back_coefficient has no effect", "no edge of region 'back'"]),
+                ({"friction_matrix_coefficient": -1}, ["-friction_matrix_coefficient", ">= 0"]),
+                ({"friction_matrx_coefficient": 1}, ["did you mean -friction_matrix_coefficient?"]),
+                ({**COULOMB, "friction_matrix_time": 1e-7}, ["-friction_matrix_time has no effect with -friction_law coulomb"]),
+                ({"friction_law": "none", "friction_coefficient": None, "friction_time": None, "friction_threshold": None,
+                  "friction_matrix_coefficient": 0.3}, ["-friction_matrix_coefficient has no effect with -friction_law none"]),
+                ({**BY_SLIP_RATE, "friction_matrix_time": 1e-7}, ["-friction_matrix_time", "with -friction_rate slip"]),
+                ({"friction_matrix_time": 1e-7, "friction_matrix_length": 1e-7}, ["contradicts"])):
+            with self.subTest(changes=changes):
+                outcome = self.slide(*arguments_of({**SCENE, **changes}), ranks=2)
+                self.assert_refused("slide", outcome, words, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
