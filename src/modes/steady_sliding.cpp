@@ -192,9 +192,10 @@ Scene read_sliding_scene(const Options& options, const Mesh& mesh) {
                     "only pressure and shear may vary, along their boundaries; give a number");
   for (const BoundaryCondition& condition : scene.conditions)
     if (condition.absorbing)
-      throw UserError("-boundary_" + condition.boundary +
-                      "_absorbing takes from a mode as its frequency says, which modes do not know; remove it, "
-                      "or hold the boundary");
+      throw UserError(
+          "-boundary_" + condition.boundary +
+          "_absorbing takes from a mode as its frequency says, which modes do not know; remove it, "
+          "or hold the boundary");
   if (scene.surface->speed == 0)
     throw UserError("-surface_speed is 0, so that nothing slides; give the surface a speed");
   if (scene.friction.law == FrictionChoice::Law::none)

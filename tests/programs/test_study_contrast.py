@@ -30,7 +30,7 @@ class Contrast(studies.StudyCase):
         adapted = self.rows(model="adapted")
         self.assertEqual({(row["way"], row["level"]) for row in adapted if row["level"] != "nearest"},
                          {("time", "scaling"), ("time", "frequency"), ("time", "search"), ("coefficient", "search"),
-                          ("density", "search"), ("density_time", "search")})
+                          ("density", "search"), ("density_time", "search"), ("modes", "modes")})
         scaled = self.rows(model="adapted", level="scaling")[0]
         frequency = {row["model"]: float(row["frequency"]) for row in self.rows(young="300", seed="1", way="")}
         np.testing.assert_allclose(float(scaled["value"]),

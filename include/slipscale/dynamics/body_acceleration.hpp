@@ -31,7 +31,8 @@ class BodyAcceleration {
  public:
   BodyAcceleration(const BodyAccelerationChoice& choice, const Mesh& mesh, double beta2, double time_step);
 
-  /// At the beginning of a step from t_n = `time`, where the one before it is closed. False where a formula makes no number.
+  /// At the beginning of a step from t_n = `time`, where the one before it is closed. False where a formula
+  /// makes no number.
   bool follow(double time);
   bool of_time() const { return choice_.of_time(); }
 
