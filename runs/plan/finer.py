@@ -6,6 +6,7 @@
 import sys
 from pathlib import Path
 
+from slipscale.parser import Parser
 from slipscale.reading.yaml_file import load
 
 
@@ -16,7 +17,9 @@ def finer_options(plan):
 
 
 def main(arguments=None):
-    outcome = Path((sys.argv[1:] if arguments is None else arguments)[0])
+    parser = Parser("plan.finer", __doc__, "python3 -m")
+    parser.add_argument("outcome", type=Path, help="outcome.yaml of a plan, which lies beside its plan.yaml")
+    outcome = parser.parse_args(arguments).outcome
     plan = load(outcome.parent / "plan.yaml", written=True)
     if plan["status"] == "ok":
         print(" ".join(f"-{name} {value}" for name, value in finer_options(plan).items()))

@@ -142,13 +142,12 @@ FrictionChoice read_friction(const Options& options, const Surface& surface,
   if (choice.law == FrictionChoice::Law::regularized) {
     choice.stored_strength = options.text("friction_threshold") == "regularized";
     choice.by_slip_rate = options.text("friction_rate") == "slip";
-    if (choice.by_slip_rate)
-      choice.rate_reference = options.real("friction_rate_reference");
-    else
+    if (!choice.by_slip_rate)
       options.refuse_idle({"friction_rate_reference"},
                           {"with -friction_rate surface", "give -friction_rate slip", {"friction_rate"}});
   }
   const FrictionConstants constants = read_constants(options, "friction_", surface, choice, nullptr);
+  if (choice.by_slip_rate) choice.rate_reference = options.real("friction_rate_reference");
   choice.coefficient = constants.coefficient.number;
   choice.coefficient_formula = constants.coefficient.formula;
   choice.time = constants.time;

@@ -72,12 +72,12 @@ class Place:
         self.manuals = {}
 
     def fill(self):
-        """A mesh, two runs and the table of the sweep: made up, but for the mesh, and with every column."""
+        """A mesh, some runs and the table of the sweep: made up, but for the mesh, and with every column."""
         from slipscale.measuring.regime import MEASURES
         from slipscale.reading import yaml_file
         from slipscale.running.sweep import products, values_of
         from tests import fake_run
-        for name in ("first", "second"):
+        for name in ("first", "second", "profile", "phases", "halfspace"):
             fake_run.write_run(self.folder / "out" / name)
         self.run(["build/release/morphology", "-options_file_yaml", "runs/first/block.yaml", "-size", "2e-4",
                   "-output_folder", "out/first/mesh"])
