@@ -13,8 +13,8 @@ from running import MPIEXEC, SLIDE, InScratch, arguments_of, datasets, h5py
 from scenes import SIDE, SQUEAL, block
 
 SHORT = {**SQUEAL, "time_end": 60e-6, "time_step": 2e-9, "contact_every": 500, "history_every": 20}  # 30 000 steps
-# 200 000 steps, for a signal to come in time.
-LONG = {**SHORT, "time_step": 3e-10, "contact_every": 2500, "history_every": 100}
+# 600 000 steps, two seconds of a fast machine, for a signal to come in time: rows are seen after half a second.
+LONG = {**SHORT, "time_step": 1e-10, "contact_every": 7500, "history_every": 300}
 EVERYTHING = {
     **LONG, "time_beta2": 0.6, "damping_mass": 100, "body_acceleration": "0,-9.81", "statistics_from": 3e-6,
     "fields_interval": 4e-6, "fields_quantities": "u,v,stress,strain,von_mises", "fields_box": "0,0,3e-3,2e-3",
@@ -94,7 +94,7 @@ class SameBytes(InBlock):
                 job = self.begin(*arguments_of({**scene, "output_folder": "out"}))
                 code, said = self.stop(job, signal.SIGTERM)
                 self.assertEqual(code, 3, said)
-                self.assertRegex(said, r"slide: interrupted by SIGTERM after step \d+ of 200000 .*; "
+                self.assertRegex(said, r"slide: interrupted by SIGTERM after step \d+ of 600000 .*; "
                                        r"go on with: slide -restart out")
                 summary = self.summary("out")
                 self.assertEqual((summary["state"], summary["interrupted_by"]), ("interrupted", "SIGTERM"))
