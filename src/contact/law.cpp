@@ -163,8 +163,12 @@ bool FrictionChoice::of_time() const {
 
 double shortest_memory(const FrictionChoice& choice, double surface_speed) {
   if (choice.law != FrictionChoice::Law::regularized) return std::numeric_limits<double>::infinity();
-  if (!choice.by_slip_rate) return choice.time;
-  return choice.length / (std::abs(surface_speed) + choice.rate_reference);
+  double time = choice.time, length = choice.length;
+  for (const FrictionConstants& phase : choice.phases) {
+    time = std::min(time, phase.time);
+    length = std::min(length, phase.length);
+  }
+  return choice.by_slip_rate ? length / (std::abs(surface_speed) + choice.rate_reference) : time;
 }
 
 FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
