@@ -100,6 +100,8 @@ void slide(Options& options) {
   if (restart && is_finished(*restart, step)) return;
 
   SlidingBody body(comm, model, scene, step.step);
+  if (record.contact_sums) body.keep_contact_sums();
+  if (record.cell_damping()) body.keep_cell_damping();
   if (restart) {
     restart->read(body.state());
     body.resume();

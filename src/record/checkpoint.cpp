@@ -35,7 +35,7 @@ void rename_or_throw(const std::string& from, const std::string& to) {
 }
 
 /// Of what a checkpoint holds, for a program that expects another to say so.
-constexpr const char* format_of_checkpoints = "2";
+constexpr const char* format_of_checkpoints = "3";
 
 /// A folder by the name of one of the files would stop the next checkpoint.
 void refuse_folders(const std::string& folder) {

@@ -76,12 +76,13 @@ void read_fields(const Options& options, RecordChoice& choice) {
 std::optional<StatisticsChoice> read_statistics(const Options& options) {
   const auto from = options.find_real("statistics_from");
   if (!from) {
-    options.refuse_idle({"statistics_to", "statistics_every", "statistics_quantile"},
+    options.refuse_idle({"statistics_to", "statistics_every", "statistics_quantile", "statistics_damping"},
                         {"without -statistics_from", "give the start of the window"});
     return std::nullopt;
   }
   return StatisticsChoice{*from, options.find_real("statistics_to"),
-                          steps_or_auto(options, "statistics_every"), options.real("statistics_quantile")};
+                          steps_or_auto(options, "statistics_every"), options.real("statistics_quantile"),
+                          options.flag("statistics_damping")};
 }
 
 }  // namespace
@@ -118,13 +119,22 @@ Schema record_schema() {
        "keeps their distance"},
       {"contact_interval", Kind::real, "s", absent, range::positive,
        "time between them, in place of contact_every; rounded to whole steps"},
+      {"contact_sums",
+       Kind::flag,
+       "",
+       "true",
+       {},
+       "whether contact.h5 has friction work, slip distance, time closed, impulse and closures of each node, "
+       "summed over every step and not only those of its rows; slipscale wear reads them"},
       {"fields_every", Kind::integer, "1", absent, range::at_least_one,
        "steps between the frames of fields.h5"},
       {"fields_interval", Kind::real, "s", absent, range::positive,
        "time between them, in place of fields_every; rounded to whole steps"},
       {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
       {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
-       "what a frame holds: some of u,v,stress,strain,von_mises,principal"},
+       "what a frame holds: some of u,v,stress,strain,von_mises,principal,damping_work; the last, energy "
+       "that bulk damping took in each cell since t = 0, is summed cell by cell at every step, which slows "
+       "the run"},
       {"fields_box", Kind::reals, "m", absent, range::any,
        "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
       {"statistics_from", Kind::real, "s", absent, range::non_negative,
@@ -136,6 +146,13 @@ Schema record_schema() {
        "samples are the multiples of this step in the window; auto takes about a thousand"},
       {"statistics_quantile", Kind::real, "1", "0.99", at_least_half,
        "part of the samples that lies below quantile_high, and above quantile_low"},
+      {"statistics_damping",
+       Kind::flag,
+       "",
+       "false",
+       {},
+       "whether statistics.h5 has the mean power of bulk damping in each cell; summed at every step, which "
+       "slows the run"},
       {"checkpoint_minutes", Kind::real, "min", "15", range::non_negative,
        "wall time between checkpoints, from which -restart goes on; the last two are kept, one more is left "
        "at "
@@ -163,11 +180,13 @@ RecordChoice read_record(const Options& options) {
   });
   choice.points = read_points(options);
   choice.momentum = options.flag("history_momentum");
-  if (has_surface(options))
+  if (has_surface(options)) {
     choice.contact = read_cadence(options, "contact",
                                   [&](const std::string& name) { return steps_or_auto(options, name); });
-  else
-    options.refuse_idle({"contact_every", "contact_interval"}, without_surface);
+    choice.contact_sums = options.flag("contact_sums");
+  } else {
+    options.refuse_idle({"contact_every", "contact_interval", "contact_sums"}, without_surface);
+  }
   read_fields(options, choice);
   choice.statistics = read_statistics(options);
   choice.progress = options.text("progress");

@@ -49,8 +49,14 @@ std::optional<StatisticsWindow> window_of(const RecordChoice& choice, const Time
   return statistics_window(*choice.statistics, time);
 }
 
-/// The choice, once it is sure that the box it may have holds a part of the body. Collective.
+/// The choice, once it is sure that the box it may have holds a part of the body, and that there is damping
+/// where it asks for its work. Collective.
 const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice) {
+  if (choice.cell_damping() && !body.keeps_cell_damping())
+    throw UserError(
+        std::string(choice.quantities.damping_work ? "-fields_quantities has damping_work"
+                                                   : "-statistics_damping is true") +
+        ", but nothing damps the body; give -damping_stiffness or -damping_mass, or leave it out");
   if (!choice.fields_box) return choice;
   const Mesh& mesh = body.model().mesh;
   const auto inside = cells_in(mesh.cells, *choice.fields_box);
@@ -156,13 +162,15 @@ void Recorder::open_files(const Restart* restart) {
                                            choice_.quantities, "fields", transverse_, frames);
   }
   if (window_)
-    statistics_ = std::make_unique<StressStatistics>(comm, mesh, *window_, choice_.statistics->quantile);
+    statistics_ = std::make_unique<StressStatistics>(comm, mesh, *window_, choice_.statistics->quantile,
+                                                     choice_.statistics->damping);
   if (is_root(comm)) {
     history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body_, probes_.positions(),
                                              choice_.momentum, rows(history_every_),
                                              continued(position_.history_rows));
     if (has_contact_)
-      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_),
+      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, mesh.region_names(),
+                                               choice_.contact_sums, rows(contact_every_),
                                                continued(position_.contact_rows));
   }
   const std::string checksum = checksum_text(mesh.checksum);
@@ -228,13 +236,15 @@ void Recorder::record_cells(long n) {
   for (int cell = 0; strain && cell < cells.size(); ++cell)
     Eigen::Vector3d::Map(strain_[cell].data()) =
         compliance_[cells.region[cell]] * Eigen::Vector3d::Map(stress_[cell].data());
+  if ((frame && choice_.quantities.damping_work) || (sample && statistics_->damping()))
+    body_.cell_damping(damping_);
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };
   if (frame) {
     fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), rows(stress_),
-                   rows(strain_));
+                   rows(strain_), damping_.data());
     last_frame_ = n;
   }
-  if (sample) statistics_->add(body_.time(), stress_, strain_);
+  if (sample) statistics_->add(body_.time(), stress_, strain_, damping_);
 }
 
 void Recorder::check(const Observation& seen) const {

@@ -70,6 +70,7 @@ std::string Recorder::cadences() const {
   std::string text = "a row of history.h5 " + cadence(history_every_);
   if (has_contact_) text += ", of contact.h5 " + cadence(contact_every_);
   if (fields_every_) text += ", a frame of fields.h5 " + cadence(*fields_every_);
+  if (body_.keeps_cell_damping()) text += "; what bulk damping takes in each cell is summed at every step";
   return text + "\n";
 }
 

@@ -16,6 +16,7 @@ struct StatisticsChoice {
   std::optional<double> to;   ///< s; absent: the end of the run
   std::optional<long> every;  ///< steps; absent: about a thousand samples
   double quantile = 0.99;
+  bool damping = false;  ///< whether the mean power of bulk damping is among them
 };
 
 /// How often something is recorded: every so many steps, or as near to every so many seconds as whole steps
@@ -45,6 +46,7 @@ struct CheckpointChoice {
 struct RecordChoice {
   std::string folder;
   Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
+  bool contact_sums = false;    ///< whether it has sums over every step
   std::vector<Vector2> points;  ///< m
   bool momentum = false;        ///< whether history.h5 has those of body and plates
   Cadence fields;
@@ -55,6 +57,10 @@ struct RecordChoice {
   std::string progress;
   CheckpointChoice checkpoint;
   std::optional<std::string> restart;  ///< folder of the run to go on with
+
+  bool cell_damping() const {  ///< whether the work of bulk damping is to be known cell by cell
+    return quantities.damping_work || (statistics && statistics->damping);
+  }
 };
 
 Schema record_schema();

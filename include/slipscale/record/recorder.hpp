@@ -104,6 +104,7 @@ class Recorder {
   std::unique_ptr<StressStatistics> statistics_;
   const std::vector<Eigen::Matrix3d> compliance_;       ///< [regions], 1/Pa
   std::vector<std::array<double, 3>> stress_, strain_;  ///< [local cells]
+  std::vector<double> damping_;                         ///< [local cells], J/m³
   Progress progress_;
   std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
   long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written
