@@ -97,7 +97,7 @@ def strain_energy(stress, modulus):
 
 def quantities(run):
     return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} &
-               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low"})
+               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low", "damping_work"})
 
 
 def frames(run):
@@ -290,6 +290,9 @@ ROWS = {
                             Idle({"fields_every": 5, "OPTION": 1e-6}, "-fields_every contradicts -fields_interval")]),
     "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))],
                          [needs_surface(10)]),
+    # That they add up: test_sums.py.
+    "contact_sums": Row([Answer({"OPTION": "false"}, lambda run: int("sums/friction_work" in run.contact), less)],
+                        [needs_surface("true")]),
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),
@@ -300,7 +303,9 @@ ROWS = {
                               Answer({"OPTION": "u,v,stress,strain"}, quantities, becomes(4),
                                      base={"fields_every": 50}),
                               Answer({"OPTION": "u,von_mises,principal"}, quantities, becomes(4),
-                                     base={"fields_every": 50})],
+                                     base={"fields_every": 50}),
+                              Answer({"OPTION": "u,damping_work"}, quantities, becomes(2),
+                                     base={"fields_every": 50, "damping_stiffness": 2e-9})],
                              [Idle({"OPTION": "u,v"}, "without -fields_every, -fields_interval or -fields_times")]),
     "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
                             Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
@@ -310,6 +315,10 @@ ROWS = {
                             [Idle({"OPTION": 10}, NO_WINDOW)]),
     "statistics_quantile": Row([Answer({"OPTION": 0.9}, QUANTILE, less, base=SAMPLES)],
                                [Idle({"OPTION": 0.9}, NO_WINDOW)]),
+    "statistics_damping": Row([Answer({"OPTION": "true"}, lambda run: int("statistics/damping_power" in run.statistics), more,
+                                      base={**SAMPLES, "damping_stiffness": 2e-9})],
+                              [Idle({"OPTION": "true"}, NO_WINDOW),
+                               Idle({**SAMPLES, "OPTION": "true"}, "nothing damps the body")]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/summary.yaml" in run.files), more)],
                          ALWAYS),
     # For people in front of a terminal: test_progress_is_for_terminals.
