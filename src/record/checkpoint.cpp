@@ -160,6 +160,7 @@ void Restart::expect_files() const {
   on_root(comm_, folder_, [&] {
     std::vector<std::string> expected{"history.h5", "summary.yaml"};
     if (position_.contact_rows > 0) expected.push_back("contact.h5");
+    if (position_.interface_rows > 0) expected.push_back("interfaces.h5");
     if (position_.frames > 0) expected.push_back("fields.h5");
     for (const std::string& file : expected)
       if (!fs::exists(fs::path(folder_) / file))

@@ -119,7 +119,7 @@ class DampingOfCells(InScratch):
                                ("triangles", {"damping_mass": 1e4, "damping_stiffness": None, "time_beta2": 0.7})):
             with self.subTest(cells=cells, damping=damping):
                 block(self.folder / "block.msh", divisions=12, cells=cells)
-                self.run_scene({**SQUEAL, **DAMPED, **damping}, ranks=2)
+                self.run_scene({**SQUEAL, **DAMPED, **damping}, ranks=2, history_every=1)
                 fields, history, statistics = (self.read(name) for name in ("fields.h5", "history.h5", "statistics.h5"))
                 area, ledger = areas(fields), dict(zip(history["time"], history["energy/damping"], strict=True))
                 works = {}

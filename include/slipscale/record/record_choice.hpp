@@ -6,6 +6,7 @@
 
 #include "slipscale/base/options.hpp"
 #include "slipscale/base/vector2.hpp"
+#include "slipscale/files/interface_choice.hpp"
 #include "slipscale/record/fields_file.hpp"
 
 namespace slipscale {
@@ -45,8 +46,10 @@ struct CheckpointChoice {
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
-  Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
-  bool contact_sums = false;    ///< whether it has sums over every step
+  Cadence history, contact;   ///< contact.h5 has about a thousand rows when nothing is given
+  bool contact_sums = false;  ///< whether it has sums over every step
+  std::optional<InterfaceChoice> interfaces;
+  Cadence interface_rows;       ///< about a thousand when nothing is given
   std::vector<Vector2> points;  ///< m
   bool momentum = false;        ///< whether history.h5 has those of body and plates
   Cadence fields;
