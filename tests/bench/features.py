@@ -41,6 +41,8 @@ FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "the same, a row in 10 steps": {"contact_sums": "true", "contact_every": 10},
     "damping work of the cells, beside stiffness damping": {"damping_stiffness": 2e-9, "fields_every": 10**7,
                                                             "fields_quantities": "damping_work"},
+    "interfaces, a row in 1000 steps": {"interfaces_region": "inclusion", "interfaces_every": 1000},
+    "interfaces, a row in 10 steps": {"interfaces_region": "inclusion", "interfaces_every": 10},
     "fields, a frame in 500 steps": {"fields_every": 500},
     "statistics of every 20th step": {"statistics_from": 0, "statistics_every": 20},
     "checkpoint every 1000 steps": {"checkpoint_every": 1000},

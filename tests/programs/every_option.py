@@ -104,6 +104,12 @@ def frames(run):
     return len({name.split("/")[1] for name in run.fields if name.startswith("frames/")})
 
 
+FIBRE = {"mesh_file": "two.msh", "material_fibre_young": YOUNG, "material_fibre_poisson": POISSON,
+         "material_fibre_density": DENSITY}
+FOLLOWED = {**FIBRE, "interfaces_region": "fibre"}
+NO_REGION = "without -interfaces_region"
+STRENGTHS = {"interfaces_normal_strength": 1e6, "interfaces_shear_strength": 1e6}
+INDEX = lambda run: run.interfaces["index"].max()
 SAMPLES = {"statistics_from": 1e-6, "statistics_to": 3e-6, "statistics_every": 5}  # steps 50, 55, ..., 150
 NO_WINDOW = "without -statistics_from"
 QUANTILE = lambda run: run.statistics["statistics/stress/quantile_high"].sum()
@@ -307,6 +313,17 @@ ROWS = {
                               Answer({"OPTION": "u,damping_work"}, quantities, becomes(2),
                                      base={"fields_every": 50, "damping_stiffness": 2e-9})],
                              [Idle({"OPTION": "u,v"}, "without -fields_every, -fields_interval or -fields_times")]),
+    # Of which the numbers are looked at in test_interfaces.py.
+    "interfaces_region": Row([Answer({"OPTION": "fibre"}, has("interfaces.h5"), more, base=FIBRE)],
+                             [Idle({"OPTION": "block"}, "the only region of the mesh")]),
+    "interfaces_every": Row([Answer({"OPTION": 50}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                            [Idle({"OPTION": 50}, NO_REGION)]),
+    "interfaces_interval": Row([Answer({"OPTION": 1e-6}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                               [Idle({"OPTION": 1e-6}, NO_REGION)]),
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
+                                      [Idle({"OPTION": 1e6}, NO_REGION)]),
+    "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
+                                     [Idle({"OPTION": 1e6}, NO_REGION)]),
     "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
                             Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
     "statistics_to": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES)],

@@ -34,7 +34,7 @@ SCENES = {
     "no damping, traction": {**LONG, "damping_stiffness": None, "friction_threshold": "instantaneous",
                              "boundary_top_y": None, "boundary_top_pressure": 10e6},
 }
-FILES = ("history.h5", "contact.h5", "fields.h5", "statistics.h5")
+FILES = ("history.h5", "contact.h5", "fields.h5", "statistics.h5", "interfaces.h5")
 
 
 class InBlock(InScratch):
