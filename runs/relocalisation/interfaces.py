@@ -19,7 +19,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from slipscale.reading.files import open_hdf5, read_dataset
+from slipscale.reading.files import UnreadableRun, open_hdf5, read_dataset
 
 SOURCES = ("reference", "relocalised", "homogeneous")
 
@@ -29,7 +29,7 @@ class Interfaces:
     [n, ni] Pa, index [n, ni] or None; of the variant `of` ("" or "homogeneous")."""
 
     def __init__(self, folder, of="", program="slide"):
-        prefix = of and f"{of}/"
+        prefix, self.folder = of and f"{of}/", folder
         with open_hdf5(Path(folder) / "interfaces.h5", program) as file:
             rows = min(len(item) for item in (file["time"], file[f"{prefix}shear_traction"]))
             self.time = read_dataset(file, "time")[:rows]
@@ -41,23 +41,21 @@ class Interfaces:
 
 
 def same_times(times, reference):
-    """Pairs of rows whose times are nearest, at most half of the distance of the reference's rows apart."""
-    if len(reference) < 2:
-        return [(0, 0)] if len(reference) and len(times) else []
-    half = 0.5 * np.median(np.diff(reference))
+    """Pairs of rows whose times are nearest, at most half of the distance of the rows of either apart."""
+    half = 0.5 * min(np.median(np.diff(each)) for each in (times, reference) if len(each) > 1)
     nearest = np.abs(reference[None, :] - times[:, None]).argmin(axis=1)
     return [(row, other) for row, other in enumerate(nearest) if abs(reference[other] - times[row]) <= half]
 
 
 def places(found, reference):
-    """Nodes of `reference` at those of `found`; raises ValueError where the interfaces are not the same."""
+    """Nodes of `reference` at those of `found`; raises UnreadableRun where the interfaces are not the same."""
     if len(found.x) != len(reference.x):
-        raise ValueError("the interfaces have different nodes")
+        raise UnreadableRun(f"The interfaces of {found.folder} and {reference.folder} have different nodes: make both anew.")
     order = [np.lexsort((np.round(part.y, 12), np.round(part.x, 12), part.inclusion)) for part in (found, reference)]
     match = np.empty(len(found.x), int)
     match[order[0]] = order[1]
     if np.hypot(found.x - reference.x[match], found.y - reference.y[match]).max() > 1e-9:
-        raise ValueError("the interfaces have different nodes")
+        raise UnreadableRun(f"The interfaces of {found.folder} and {reference.folder} have different nodes: make both anew.")
     return match
 
 
@@ -91,7 +89,8 @@ def compare_interfaces(relocalised, reference, layer, bulk, row):
     match = places(found["relocalised"], expected)
     pairs = same_times(found["relocalised"].time, expected.time)
     if not pairs:
-        raise ValueError("the interfaces have no time in common")
+        raise UnreadableRun(f"The interfaces of {relocalised} and {reference} have no time in common: choose another "
+                            "interfaces_interval.")
     ours, theirs = (np.array(rows) for rows in zip(*pairs, strict=True))
     some = found["relocalised"]
     box = [(values.min(), values.max()) for values in (some.x, some.y)]
