@@ -9,6 +9,7 @@ from slipscale.pictures.drawing import plt, shown
 from slipscale.pictures.panels import edges_between
 
 LAWS = {"archard": ("Archard", BLUE, "-"), "energy": ("by energy", VERMILION, "--")}
+UNITS = ((1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"), (1e-12, "pm"))
 PHASES = ("#F0E9DC", SKY, GREEN, ORANGE, PURPLE)
 
 
@@ -24,9 +25,15 @@ def draw(folder, worn):
     return figure
 
 
+def depth_unit(worn):
+    """A factor from metres and the name of the unit that suits the largest depth."""
+    most = max((values[-1].max() for values in worn.depth.values()), default=0)
+    return next(((1 / metres, name) for metres, name in UNITS if most >= 0.999 * metres), (1 / UNITS[-1][0], UNITS[-1][1]))
+
+
 def profile(axes, _, worn):
     """Depth along the contact at the end of the window; the colour behind it is the region at the surface."""
-    edges = edges_between(worn.x) * 1e3
+    edges, (scale, unit) = edges_between(worn.x) * 1e3, depth_unit(worn)
     names, shares = list(worn.shares), np.array(list(worn.shares.values()))
     patches = []
     if len(names) > 1:
@@ -38,10 +45,10 @@ def profile(axes, _, worn):
     lines = []
     for law, depths in worn.depth.items():
         name, colour, style = LAWS[law]
-        lines += axes.plot(worn.x * 1e3, depths[-1] * 1e9, style, color=colour,
-                           label=f"{name}, mean {worn.mean(depths[-1]) * 1e9:.3g} nm")
+        lines += axes.plot(worn.x * 1e3, depths[-1] * scale, style, color=colour,
+                           label=f"{name}, mean {worn.mean(depths[-1]) * scale:.3g} {unit}")
     axes.legend(handles=[*lines, *patches], loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, frameon=False)
-    axes.set(title="(a) Depth worn off along the contact", xlabel="position along the contact [mm]", ylabel="depth [nm]",
+    axes.set(title="(a) Depth worn off along the contact", xlabel="position along the contact [mm]", ylabel=f"depth [{unit}]",
              xlim=(edges[0], edges[-1]))
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.25)
@@ -49,18 +56,19 @@ def profile(axes, _, worn):
 
 def history(axes, _, worn):
     """Mean over the contact and over each region that is at least half of a node, over time."""
+    scale, unit = depth_unit(worn)
     for law, depths in worn.depth.items():
         name, colour, style = LAWS[law]
-        axes.plot(worn.time * MICRO, depths @ worn.length / worn.length.sum() * 1e9, style, color=colour, label=name)
+        axes.plot(worn.time * MICRO, depths @ worn.length / worn.length.sum() * scale, style, color=colour, label=name)
         if len(worn.shares) < 2:
             continue
         for k, (region, share) in enumerate(worn.shares.items()):
             weight = worn.length * (share >= 0.5)
             if weight.any():
-                axes.plot(worn.time * MICRO, depths @ weight / weight.sum() * 1e9, (":", "-.")[k % 2], color=colour,
+                axes.plot(worn.time * MICRO, depths @ weight / weight.sum() * scale, (":", "-.")[k % 2], color=colour,
                           linewidth=1, label=f"{name}, {region}")
     axes.legend(fontsize="small", frameon=False)
-    axes.set(title="(b) Mean depth", xlabel="time [µs]", ylabel="depth [nm]")
+    axes.set(title="(b) Mean depth", xlabel="time [µs]", ylabel=f"depth [{unit}]")
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.25)
 
