@@ -110,7 +110,7 @@ class Interfaces(InScratch):
             self.assertAlmostEqual(report["peaks"][f"inclusion_{k}"]["shear"][0] / np.abs(shear[:, own]).max(), 1, delta=1e-5)
         weaker = {**STRONG, "interfaces_normal_strength": 1e15, "interfaces_shear_strength": 1e15}
         self.run_scene({**FOLLOWED, **weaker}, time_end=2e-6)
-        self.assertRegex((self.folder / "out" / "interfaces.yaml").read_text(), "first: no inclusion debonds; inclusion . comes")
+        self.assertRegex((self.folder / "out" / "interfaces.yaml").read_text(), 'first: "no inclusion debonds; inclusion . comes')
         document = xml.etree.ElementTree.parse(self.folder / "out" / "interfaces.xdmf")
         self.assertEqual(len(document.findall(".//Time")), len(self.read()["time"]))
 

@@ -99,7 +99,7 @@ class Sums(InScratch):
                 names = file.attrs["regions"]
             names = (names.decode() if isinstance(names, bytes) else names).split("\n")
             inclusion = share[:, names.index("inclusion")]
-            np.testing.assert_array_equal(inclusion, [0, 0, 0, 0, 0.5, 1, 1, 1, 1])
+            np.testing.assert_allclose(inclusion, [0, 0, 0, 0, 0.5, 1, 1, 1, 1], rtol=0, atol=1e-10)
             np.testing.assert_array_equal(share.sum(axis=1), 1)
 
     def test_left_out(self):
