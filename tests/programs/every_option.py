@@ -109,7 +109,7 @@ FIBRE = {"mesh_file": "two.msh", "material_fibre_young": YOUNG, "material_fibre_
 FOLLOWED = {**FIBRE, "interfaces_region": "fibre"}
 NO_REGION = "without -interfaces_region"
 STRENGTHS = {"interfaces_normal_strength": 1e6, "interfaces_shear_strength": 1e6}
-INDEX = lambda run: run.interfaces["index"].max()
+INDEX = lambda run: run.interfaces["index"].sum()
 SAMPLES = {"statistics_from": 1e-6, "statistics_to": 3e-6, "statistics_every": 5}  # steps 50, 55, ..., 150
 NO_WINDOW = "without -statistics_from"
 QUANTILE = lambda run: run.statistics["statistics/stress/quantile_high"].sum()
@@ -320,7 +320,9 @@ ROWS = {
                             [Idle({"OPTION": 50}, NO_REGION)]),
     "interfaces_interval": Row([Answer({"OPTION": 1e-6}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
                                [Idle({"OPTION": 1e-6}, NO_REGION)]),
-    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
+    # Pulled at its top: pressed, no interface is under tension.
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, INDEX, more,
+                                              base={**FOLLOWED, **STRENGTHS, "boundary_top_y": 1.4e-6})],
                                       [Idle({"OPTION": 1e6}, NO_REGION)]),
     "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
                                      [Idle({"OPTION": 1e6}, NO_REGION)]),

@@ -1,10 +1,15 @@
 """Tractions along interfaces of relocalised stresses: interfaces.h5 and .yaml of `relocalize`."""
 
+import shutil
+import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 import yaml
-from relocalizing import RUN, Relocalising, frames_of
+sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
+import disc_arrays
+from relocalizing import RUN, Relocalising, areas_of, frames_of, macro_grid, write_fields
 from running import datasets
 from scenes import SIDE, block
 
@@ -61,6 +66,64 @@ class OfALaminate(Relocalising):
             cut = datasets(self.folder / "out" / "interfaces.h5")
             for name in alone:
                 self.assertEqual(alone[name].tobytes(), cut[name].tobytes(), f"{name}, {ranks} ranks")
+
+
+class OfASquareArrayOfDiscs(Relocalising):
+    """Against the exact fields of complex potentials (tests/verification/disc_arrays.py), f = .4, 30/80 GPa, nu = .3."""
+
+    EXACT = 70.27563e9  # sigma_xx at 0 degrees under E_xx = 1, Pa
+    PERIOD = 1e-3
+
+    def traction(self, elements, cell):
+        """At 0 degrees of a whole disc, between the two nodes beside it, and the mean stress xx of its outline."""
+        self.draw({"block_width": self.PERIOD, "block_height": self.PERIOD, "periodic": "xy", "shape": "disc",
+                   "arrangement": "square", "columns": 1, "rows": 1, "fraction": 0.4, "size": self.PERIOD / elements,
+                   "cell": cell, "output_folder": "drawn"})
+        materials = {f"material_{region}_{name}": value for region, young in (("matrix", 30e9), ("inclusion", 80e9))
+                     for name, value in (("young", young), ("poisson", 0.3), ("density", 1))}
+        self.run_cell({"mesh_file": "drawn/mesh.msh", **materials, "cell_estimate_error": "false", "output_folder": "cell"})
+        points, cells = macro_grid(self.PERIOD, self.PERIOD, 2, 2)
+        shutil.rmtree(self.folder / "homogeneous", ignore_errors=True)
+        write_fields(self.folder / "homogeneous", points, cells, [0.0], [np.tile([1.0, 0, 0], (len(cells), 1))])
+        self.run_relocalize(FOLLOWED, ranks=2)
+        found = self.local(file="interfaces.h5")
+        self.assertEqual(len(found["inclusions/area"]), 1)
+        angle = np.remainder(found["angle"] + np.pi, 2 * np.pi) - np.pi
+        order = np.argsort(angle)
+        normal, shear, n = found["normal_traction"][0], found["shear_traction"][0], found["normal"]
+        # Without body forces the integral of x t over the outline is that of the stress over the disc.
+        t_x = normal * n[:, 0] - shear * n[:, 1]
+        mean = np.sum((found["x"] - found["inclusions/centre"][0, 0]) * t_x * found["length"]) / found["inclusions/area"][0]
+        local = self.local()
+        area, inside = areas_of(local), local["mesh/region"] == 1
+        stress = np.sum(area[inside] * local["frames/00000/stress"][inside, 0]) / area[inside].sum()
+        self.assertAlmostEqual(mean / stress, 1, delta=1e-9)
+        return np.interp(0, angle[order], normal[order]), self.distance(found["angle"], normal, shear)
+
+    @staticmethod
+    def distance(angle, normal, shear):
+        """Relative L2 distance to the exact tractions along the whole outline."""
+        field = disc_arrays.solve(disc_arrays.SQUARE, 0.4, disc_arrays.Solid(30e9), disc_arrays.Solid(80e9), (1, 0, 0))
+        s = field.strain_and_stress(field.radius * np.exp(1j * angle))[1].T
+        c, d = np.cos(angle), np.sin(angle)
+        exact = np.array([s[0] * c**2 + s[1] * d**2 + 2 * s[2] * c * d, (s[1] - s[0]) * c * d + s[2] * (c**2 - d**2)])
+        return np.linalg.norm(exact - [normal, shear]) / np.linalg.norm(exact)
+
+    def test_has_the_exact_traction_with_first_order(self):
+        for cell, name in (("triangle", "P1"), ("quadrilateral", "Q1")):
+            found = [self.traction(elements, cell) for elements in (32, 64, 128)]
+            at_zero, distance = np.array(found).T
+            order = 0.5 * np.log2(distance[0] / distance[2])
+            topic = "Traction along the interface of a square array of discs, f .4, 30/80 GPa, E_xx = 1"
+            for quantity, expected, said, shown in (
+                    (f"normal at 0 degrees, GPa, 128 {name} elements per cell", "70.2756 +- 0.02", f"{at_zero[2] * 1e-9:.4f}", "-"),
+                    (f"normal and shear along the outline, relative L2 error, 128 {name} elements", "<= 2e-3; order >= 0.95",
+                     f"{distance[2]:.1e}", f"{order:.2f}")):
+                print(f"verification | {topic} | {quantity} | {expected} | {said} | {shown} | complex potentials, disc_arrays.py",
+                      flush=True)
+            self.assertLess(abs(at_zero[2] - self.EXACT), 0.02e9)
+            self.assertLess(distance[2], 2e-3)
+            self.assertGreater(order, 0.95)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def stress(run):
 
 
 def index(run):
-    return run.interfaces["index"].max()
+    return run.interfaces["index"].sum()
 
 
 def off_the_origin(run):
@@ -70,7 +70,7 @@ ROWS = {
     # Of which the numbers are looked at in test_relocalize_interfaces.py.
     "interfaces_region": Row([Answer({"OPTION": "inclusion"}, lambda run: int("interfaces.yaml" in run.files), more)],
                              [Idle({"OPTION": "fibre"}, "the mesh has the regions 'matrix', 'inclusion'")]),
-    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, index, more, base=STRONG)], [Idle({"OPTION": 1e6}, NO_REGION)]),
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, index, more, base={**STRONG, "relocalize_run": "pulled"})], [Idle({"OPTION": 1e6}, NO_REGION)]),
     "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, index, more, base=STRONG)], [Idle({"OPTION": 1e6}, NO_REGION)]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/relocalized.h5" in run.files),
                                  more)], ALWAYS),
@@ -105,10 +105,11 @@ class EveryOption(Relocalising):
         self.make_runs()
         self.draw_cell(self.folder / "cell.msh")
         self.run_cell(MICRO, output_folder="torus")
-        shutil.copytree(self.folder / "homogeneous", self.folder / "twice")
-        for name, rows in datasets(self.folder / "twice" / "fields.h5").items():
-            if name.endswith("/strain"):
-                replace(self.folder / "twice" / "fields.h5", name, 2 * rows)
+        for folder, factor in (("twice", 2), ("pulled", -1)):
+            shutil.copytree(self.folder / "homogeneous", self.folder / folder)
+            for name, rows in datasets(self.folder / folder / "fields.h5").items():
+                if name.endswith("/strain"):
+                    replace(self.folder / folder / "fields.h5", name, factor * rows)
         shutil.copytree(self.folder / "cell", self.folder / "stiffer")
         with h5py.File(self.folder / "stiffer" / "localization.h5", "r+") as file:
             file["region/stiffness"][...] *= 3
