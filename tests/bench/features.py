@@ -38,7 +38,7 @@ FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "the same with momenta": {**ROWS, "history_momentum": "true"},
     "contact, a row in 10 steps": {"contact_every": 10},
     "sums over every step at the contact": {"contact_sums": "true"},
-    "the same, a row in 10 steps": {"contact_sums": "true", "contact_every": 10},
+    "the same sums, a row in 10 steps at the contact": {"contact_sums": "true", "contact_every": 10},
     "damping work of the cells, beside stiffness damping": {"damping_stiffness": 2e-9, "fields_every": 10**7,
                                                             "fields_quantities": "damping_work"},
     "interfaces, a row in 1000 steps": {"interfaces_region": "inclusion", "interfaces_every": 1000},
