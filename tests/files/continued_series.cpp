@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -51,6 +52,17 @@ std::string written(const std::string& name, int rows) {
   series.file.close();
   EXPECT_EQ(series.file.fault(), "");
   return path;
+}
+
+/// Where the first free piece of the first heap of names begins: HDF5 File Format Specification 3.0, III.D.
+std::streamoff free_piece(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t heap = bytes.find("HEAP");
+  std::uint64_t head = 0, data = 0;
+  std::memcpy(&head, &bytes.at(heap + 16), sizeof head);
+  std::memcpy(&data, &bytes.at(heap + 24), sizeof data);
+  return static_cast<std::streamoff>(head + data);
 }
 
 void expect_same(const std::string& path, const std::string& whole) {
@@ -185,6 +197,10 @@ TEST(ContinuedSeries, WhatIsNoSuchFileIsRefused) {
   const std::string cut = written("cut.h5", 500);
   std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
   EXPECT_NE(refused(cut).find("cannot be continued: "), std::string::npos);
+  const std::string heap = written("heap.h5", 500);  // how long the last free piece of the names' heap is
+  const auto at = free_piece(heap);
+  std::fstream(heap, std::ios::in | std::ios::out | std::ios::binary).seekp(at + 13).put(2);
+  EXPECT_NE(refused(heap).find("cannot be continued: it is cut short or damaged; "), std::string::npos);
   const std::string other = scratch("other.h5");
   { const Hdf5File file(H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)); }
   EXPECT_NE(refused(other).find("cannot be continued: the attribute 'program': "), std::string::npos);
