@@ -17,7 +17,7 @@ namespace {
 using Storage = SeriesFile::Storage;
 using Continue = SeriesFile::Continue;
 
-constexpr double place[] = {1, 2};
+constexpr double place[] = {1, 2}, elsewhere[] = {2, 3};
 
 /// A series file with its quantities declared: of row n, time is n + ⅓, u two numbers, status a byte.
 struct Series {
@@ -179,7 +179,7 @@ TEST(ContinuedSeries, AForeignFileIsRefusedAndStaysAsItIs) {
   });
   said("'/status' has another type of number", [](auto& file) { file.add("/status", {3}, "1", "state"); });
   said("'/x' has the shape 2 and not 1", [](auto& file) { file.constant("/x", place, {1}, "m", ""); });
-  said("'/x' has other values", [](auto& file) { file.constant("/x", place + 1, {2}, "m", ""); });
+  said("'/x' has other values", [](auto& file) { file.constant("/x", elsewhere, {2}, "m", ""); });
   said("its mesh_checksum is 'fnv1a:0123' and not 'fnv1a:4567'",
        [](auto& file) { file.about("mesh_checksum", "fnv1a:4567"); });
 }
