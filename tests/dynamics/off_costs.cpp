@@ -30,6 +30,9 @@ void* counted(std::size_t size, std::size_t line) {
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t line) {
   return counted(size, static_cast<std::size_t>(line));
 }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(size, 16);
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
