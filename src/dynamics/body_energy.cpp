@@ -40,6 +40,19 @@ Vector2 SlidingBody::force_on_support(int slot) const {
   return {-(now[0] + lag * (now[0] - before[0])), -(now[1] + lag * (now[1] - before[1]))};
 }
 
+ContactTotals SlidingBody::contact_totals(int k) const {
+  const double length = contact_.tributary_length[k];
+  const ContactSums::Sums& sums = sums_.at(k);
+  const auto losses = ledger_.contact_losses(k);
+  return {losses[0] / length,
+          losses[1] / length,
+          sums.slip,
+          sums.pressure_slip / length,
+          sums.closed * time_step_,
+          sums.force * time_step_ / length,
+          sums.closures};
+}
+
 double SlidingBody::gravity_work(int node, const Vector2& displacement) const {
   return body_acceleration_.work(node, model_.mass[node], displacement);
 }

@@ -107,11 +107,8 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 
-/// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt, where the body
-/// was with the velocity that it starts with, and supports with theirs.
-void SlidingBody::start_force() {
-  if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
-  NodalVector past(comm_, model_.mesh.nodes, true);
+/// Where the body was at t = −Δt with the velocity that it starts with, and supports with theirs.
+void SlidingBody::set_past(NodalVector& past) const {
   std::copy_n(w_.data(), model_.mesh.nodes.owned, past.data());
   supports_->start(boundary_, time_step_, past.data());
   for (int i = 0; i < model_.mesh.nodes.owned; ++i)
@@ -119,7 +116,22 @@ void SlidingBody::start_force() {
       past.data()[i][axis] = u_.data()[i][axis] - time_step_ * past.data()[i][axis];
   past.begin_update();
   past.end_update();
+}
+
+/// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt.
+void SlidingBody::start_force() {
+  if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
+  NodalVector past(comm_, model_.mesh.nodes, true);
+  set_past(past);
   model_.multiply(past.data(), force_.data());
+}
+
+void SlidingBody::keep_cell_damping() {
+  if (!physics_.mass_damping && !physics_.stiffness_damping) return;
+  NodalVector past(comm_, model_.mesh.nodes, true);
+  set_past(past);
+  cell_damping_ = std::make_unique<CellDamping>(comm_, model_, scene_.damping, scene_.beta2, time_step_,
+                                                u_.data(), past.data(), w_.data());
 }
 
 /// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
@@ -207,6 +219,7 @@ void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const 
   static const LogEvent event("Ledger");
   const LogEvent::Scope scope(event);
   ledger_.add(boundary_, contact_, moving, surface_travel_);
+  sums_.add(contact_, surface_travel_, boundary_.displacement.data(), u_.data());
   if (lifts()) ledger_.add_lift(contact_);
   if (!absorbing_->empty()) {
     absorbing_->measure(step, boundary_, moving);
@@ -232,6 +245,11 @@ void SlidingBody::advance(Observed observed) {
     static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
     u_.end_update();
+  }
+  if (cell_damping_ && !first) {
+    static const LogEvent event("CellDamping");
+    const LogEvent::Scope scope(event);
+    cell_damping_->close_step(u_.data(), w_.data());
   }
   {
     static const LogEvent event("StiffnessMotion");

@@ -85,7 +85,7 @@ namespace {
 
 /// Costs of 100 steps of the scene. A scene with straight sides gathers once a step for each side of which
 /// the rank holds nodes.
-void expect_costs(const Scene& scene, const std::string& side) {
+void expect_costs(const Scene& scene, const std::string& side, bool sums = false) {
   petsc(PetscLogDefaultBegin());
   Block block;
   block.nx = block.ny = 12;
@@ -93,6 +93,10 @@ void expect_costs(const Scene& scene, const std::string& side) {
   const Mesh mesh = block_mesh(block);
   const Model model(mesh, {scene_r_material()}, Model::Storage::full);
   SlidingBody body(PETSC_COMM_WORLD, model, scene, 5e-9);
+  if (sums) {
+    body.keep_contact_sums();
+    body.keep_cell_damping();
+  }
   EXPECT_GT(collectives, 0) << "the counter counts nothing";
   for (int n = 0; n < 3; ++n) body.advance(false);
 
@@ -115,6 +119,12 @@ TEST(StepCosts, OneHaloExchangeNoReductionNoAllocation) {
   scene.beta2 = 0.6;
   scene.damping.mass = 10;
   expect_costs(scene, "");
+}
+
+TEST(StepCosts, SumsOverEveryStepAskForNoMore) {
+  Scene scene = scene_r();
+  scene.damping.mass = 10;
+  expect_costs(scene, "", true);
 }
 
 TEST(StepCosts, AStraightSideGathersOnce) {
