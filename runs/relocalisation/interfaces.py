@@ -81,8 +81,8 @@ def debonded(part):
 
 
 def compare_interfaces(relocalised, reference, layer, bulk, row):
-    """Rows, made by `row(measure, part, component, values)`; folders of `relocalize` and of `slide`. `layer` and `bulk`, m, as
-    of `relocalize`."""
+    """Rows, made by `row(measure, part, component, values)`; folders of `relocalize` and of `slide`. `layer` and `bulk`, m:
+    depth next to the contact, and distance from all edges, as of `relocalize`."""
     expected = Interfaces(reference)
     found = {of: Interfaces(relocalised, variant, "relocalize")
              for of, variant in (("relocalised", ""), ("homogeneous", "homogeneous"))}
@@ -93,9 +93,11 @@ def compare_interfaces(relocalised, reference, layer, bulk, row):
                             "interfaces_interval.")
     ours, theirs = (np.array(rows) for rows in zip(*pairs, strict=True))
     some = found["relocalised"]
-    box = [(values.min(), values.max()) for values in (some.x, some.y)]
-    parts = {"all": some.inner, "layer": some.inner & (some.y < layer),
-             "bulk": some.inner & (some.y > bulk) & (some.y < box[1][1]) & (some.x > box[0][0]) & (some.x < box[0][1])}
+    with open_hdf5(Path(reference) / "fields.h5") as file:
+        points = read_dataset(file, "mesh/coordinates")
+    (left, lower), (right, upper) = points.min(axis=0), points.max(axis=0)
+    edge = np.min([some.x - left, right - some.x, some.y - lower, upper - some.y], axis=0)
+    parts = {"all": some.inner, "layer": some.inner & (some.y - lower < layer), "bulk": some.inner & (edge > bulk)}
     rows = []
     for part, inside in parts.items():
         for component in ("normal", "shear"):

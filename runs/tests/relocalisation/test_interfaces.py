@@ -37,6 +37,8 @@ class Compared(unittest.TestCase):
         self.folder = Path(temporary.name)
         self.true = np.outer([0, 1, 2, 3], np.r_[np.ones(4), 0.5 * np.ones(4)])
         write(self.folder / "slide", np.arange(8), TIMES, self.true)
+        with h5py.File(self.folder / "slide" / "fields.h5", "w") as file:
+            file["mesh/coordinates"] = [[0, 0], [4e-3, 3e-3]]
         write(self.folder / "relocalize", np.array([3, 2, 1, 0, 7, 6, 5, 4]), TIMES[1:], 1.1 * self.true[1:],
               ("", "homogeneous"))
 
