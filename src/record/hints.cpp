@@ -130,7 +130,7 @@ std::string dear_outputs(const SlidingBody& body, const TimeStep& step, const Re
 
 OutputCosts output_costs(double nodes, double contact_nodes) {
   return {5e-9 * nodes, 12e-6 + 7e-9 * nodes, 5e-6 + 0.25e-6 * contact_nodes, 0.7e-3 + 3e-7 * nodes,
-          30e-6 + 20e-9 * nodes};
+          30e-6 + 30e-9 * nodes};
 }
 
 std::vector<std::string> hints_at_start(const SlidingBody& body, const TimeStep& step,

@@ -148,8 +148,8 @@ Schema record_schema() {
               "what a frame holds: some of u,v,stress,strain,von_mises,principal,damping_work; the last, "
               "energy "
               "that bulk damping took in each cell since t = 0, is summed cell by cell at every step, which "
-              "slows "
-              "the run"},
+              "then takes "
+              "several times as long"},
              {"fields_box", Kind::reals, "m", absent, range::any,
               "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
              {"statistics_from", Kind::real, "s", absent, range::non_negative,
@@ -169,8 +169,8 @@ Schema record_schema() {
               "false",
               {},
               "whether statistics.h5 has the mean power of bulk damping in each cell; summed at every step, "
-              "which "
-              "slows the run"},
+              "which then "
+              "takes several times as long"},
              {"checkpoint_minutes", Kind::real, "min", "15", range::non_negative,
               "wall time between checkpoints, from which -restart goes on; the last two are kept, one more "
               "is left "
