@@ -88,6 +88,7 @@ std::vector<std::string> unsteady_formulas(const Scene& scene) {
   name(scene.surface && scene.surface->height_formula, "surface_height");
   name(scene.surface && scene.surface->speed_formula, "surface_speed");
   name(scene.friction.coefficient_formula != nullptr, "friction_coefficient");
+  name(scene.friction.kinetic.formula != nullptr, "friction_kinetic");
   name(!scene.friction.phases.empty(), "friction_<region>_coefficient");
   return names;
 }
@@ -145,9 +146,15 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
     scene.friction = read_friction(options, *scene.surface, mesh.region_names(),
                                    regions_at(mesh, *mesh.find_boundary(scene.surface->boundary)));
     check_at(options, "friction_coefficient", scene.friction.mu(), mesh, nodes);
-    for (std::size_t r = 0; r < scene.friction.phases.size(); ++r)
-      if (const std::string name = "friction_" + mesh.regions[r].name + "_coefficient"; options.given(name))
-        check_at(options, name, scene.friction.phases[r].coefficient, mesh, nodes);
+    check_at(options, "friction_kinetic", scene.friction.kinetic, mesh, nodes);
+    for (std::size_t r = 0; r < scene.friction.phases.size(); ++r) {
+      const std::string prefix = "friction_" + mesh.regions[r].name + "_";
+      const FrictionConstants& phase = scene.friction.phases[r];
+      if (options.given(prefix + "coefficient"))
+        check_at(options, prefix + "coefficient", phase.coefficient, mesh, nodes);
+      if (options.given(prefix + "kinetic"))
+        check_at(options, prefix + "kinetic", phase.kinetic, mesh, nodes);
+    }
   } else {
     auto idle = names_in(surface_schema());
     for (const std::string& name : friction_options(mesh.region_names())) idle.push_back(name);

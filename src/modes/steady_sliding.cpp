@@ -202,6 +202,10 @@ Scene read_sliding_scene(const Options& options, const Mesh& mesh) {
     throw UserError(
         "-friction_law none leaves nothing that could feed a mode; give coulomb or regularized, with "
         "-friction_coefficient 0 for the modes without friction");
+  if (scene.friction.law == FrictionChoice::Law::exponential)
+    throw UserError(
+        "-friction_law exponential feeds a mode by its slip rate, which modes do not know; give regularized "
+        "with the coefficient at the surface's speed for what pressure alone does");
   // The damping acts on the nodes alone, and the mass that vibrates would be another than the damped one.
   if (scene.damping.mass != 0)
     for (const BoundaryCondition& condition : scene.conditions)

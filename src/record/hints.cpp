@@ -71,7 +71,7 @@ struct Memory {
 
 /// All zero without friction that remembers. Collective.
 Memory memory_of(const SlidingBody& body) {
-  if (!body.scene().surface || body.scene().friction.law != FrictionChoice::Law::regularized) return {};
+  if (!body.scene().surface || !body.scene().friction.remembers()) return {};
   const double time = shortest_memory(body.scene().friction, body.scene().surface->speed);
   if (!(time > 0) || !std::isfinite(time)) return {};
   double slowest = std::numeric_limits<double>::infinity();
