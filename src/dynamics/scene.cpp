@@ -278,9 +278,16 @@ std::string describe(const TimeStep& step, const Model& model) {
   std::string text = "block " + engineering(size[0], "m") + " x " + engineering(size[1], "m") +
                      ", shortest edge " + engineering(mesh.shortest_edge, "m") + "\n";
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
-    const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
-    text += format("  waves along y in {}: {:.5g} and {:.5g} m/s, crossing the height in {}\n",
+    const Material& material = model.materials[r];
+    const WaveSpeeds speeds = wave_speeds(material, 0, 1);
+    text += format("  waves along y in {}: {:.5g} and {:.5g} m/s, crossing the height in {}",
                    mesh.regions[r].name, speeds.fast, speeds.slow, engineering(size[1] / speeds.fast, "s"));
+    if (material.grading) {
+      const WaveSpeeds most = wave_speeds(material.grading->fastest, 0, 1);
+      text += format(" where they are slowest; {:.5g} and {:.5g} m/s, {}, where fastest", most.fast,
+                     most.slow, engineering(size[1] / most.fast, "s"));
+    }
+    text += "\n";
   }
   text += format("largest frequency: {:.4g} 1/s (Lanczos), at most {:.4g} 1/s (largest element)\n",
                  step.frequency.sharp, step.frequency.safe);

@@ -70,8 +70,8 @@ double ModeMeasurement::near_contact_energy(const Columns& shape) const {
               u.data()[nodes[c]][axis] - u.data()[nodes[0]][axis];
         height += mesh.cells.corners_of(cell)[c][1] / static_cast<double>(nodes.size());
       }
-      const auto k =
-          element_stiffness({seen.data(), nodes.size()}, model.materials[mesh.cells.region[cell]].stiffness);
+      const auto k = element_stiffness({seen.data(), nodes.size()},
+                                       model.materials[mesh.cells.region[cell]].at(cell).stiffness);
       const double strain = corners.dot(k * corners);
       energy[0] += strain;
       if (height < limit) energy[1] += strain;

@@ -17,7 +17,7 @@ constexpr double far_below = 0.5;     ///< of the limit
 constexpr double least_edges = 2;     ///< that the memory has to span; one is marginal
 
 bool same(const Material& one, const Material& other) {
-  return one.stiffness == other.stiffness && one.density == other.density;
+  return !one.grading && !other.grading && one.stiffness == other.stiffness && one.density == other.density;
 }
 
 /// Two regions that could be one.

@@ -230,6 +230,12 @@ ROWS = {
     "initial_displacement": Row([Answer({"OPTION": "0,-1e-7", "surface_height": -1e-6}, first("energy/strain"), same),
                                  Answer({"OPTION": "1e-7*y/H,0"}, first("energy/strain"),
                                         becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    # Interpolated: test_initial_file.py. The table holds a shear, the run falls from rest.
+    "initial_file": Row([Answer({"OPTION": "sheared.csv"}, first("energy/strain"),
+                                becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    "initial_time": Row([Answer({"OPTION": 0}, first("energy/kinetic"), becomes(0), base={"initial_file": "falling"})],
+                        [Idle({"OPTION": 0}, "without -initial_file"),
+                         Idle({"initial_file": "sheared.csv", "OPTION": 0}, "with a table")]),
     "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),
     "initial_sine_amplitude": Row([Answer({"OPTION": 0.2}, M_X, becomes(-0.2), base=SINE)], ALWAYS),
     "initial_sine_wavelength": Row([Answer({"OPTION": 1.5 * SIDE}, M_X, becomes(0.1 * np.cos(2 * np.pi / 3)),
