@@ -109,11 +109,15 @@ std::vector<std::string> files_of_a_run() {
           checkpoint_names[0], checkpoint_names[1], checkpoint_next};
 }
 
+Eigen::Matrix3d compliance(const Eigen::Matrix3d& stiffness) {
+  return stiffness.llt().solve(Eigen::Matrix3d::Identity());
+}
+
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
   for (const Material& material : materials)
-    found.push_back(material.stiffness.llt().solve(Eigen::Matrix3d::Identity()));
+    found.push_back(compliance(material.stiffness));
   return found;
 }
 
@@ -235,7 +239,7 @@ void Recorder::record_cells(long n) {
     const auto stress = Eigen::Vector3d::Map(stress_[cell].data());
     auto found = Eigen::Vector3d::Map(strain_[cell].data());
     if (model.materials[region].grading)
-      found = model.materials[region].at(cell).stiffness.llt().solve(stress);
+      found = compliance(model.materials[region].at(cell).stiffness) * stress;
     else
       found = compliance_[region] * stress;
   }

@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 from every_option import COULOMB, DENSITY, FOUR_TIMES, FRICTIONLESS, ROWS, SCENE
 from running import SLIDE, InScratch, arguments_of, datasets, h5py, yaml_of
-from scenes import block
+from scenes import SIDE, block
 
 RANKS_OF_REFUSALS = 2
 AT_ONCE = 2  # starting and ending a parallel job is mostly waiting

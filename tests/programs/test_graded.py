@@ -80,7 +80,7 @@ class Graded(InBlock):
 
     def test_refused(self):
         for name, value, words in (
-                ("young", "45e9*(1 + t)", ["-material_block_young", "unknown name 't'", "x, y"]),
+                ("young", "45e9*(1 + t)", ["-material_block_young", "'t' at character 11 has no meaning here", "known are x, y"]),
                 ("young", "45e9*(0.5 - y/H)", ["-material_block_young is '45e9*(0.5 - y/H)', which makes -", "in cell ", "of region 'block' at x = ",
                                                "must be a number", "> 0"]),
                 ("poisson", "0.3 + 0.3*x/L", ["-material_block_poisson", "< 0.5", "in cell"]),

@@ -1,5 +1,6 @@
 """Friction of each phase: its own constants act where it touches, equal ones have the bits of one law for all."""
 
+import re
 import unittest
 
 import numpy as np
@@ -88,10 +89,9 @@ class Phases(InScratch):
         """`back` does not touch. The shortest memory is that of the inclusions, whatever would stand for all."""
         own = {**OWN, "friction_matrix_time": 6e-7, "friction_inclusion_time": 1e-7}
         none = {"friction_coefficient": None, "friction_time": None}
-        outcome = self.run_scene({**SCENE, **own, "output_folder": "all"})
-        self.assertIn("mu 0.5, T 600 ns, in matrix: mu 0.2, T 600 ns", outcome.out.replace("regularized, ", ""))
+        self.run_scene({**SCENE, **own, "output_folder": "all"})
         outcome = self.run_scene({**SCENE, **own, **none, "output_folder": "own"}, ranks=2)
-        self.assertIn("friction: regularized, in matrix: mu 0.2, T 600 ns, in inclusion: mu 0.6, T 100 ns", outcome.out)
+        self.assertIn("friction: regularized, in matrix: mu 0.2, T 600.0 ns, in inclusion: mu 0.6, T 100.0 ns", outcome.out)
         self.assert_same_bits("all", "own")
         falling = {**own, **none, **FALLING, "friction_kinetic": None, "friction_slip_rate": None}
         for region in REGIONS:
@@ -113,7 +113,7 @@ class Phases(InScratch):
                 outcome = self.slide(*arguments_of({**SCENE, "time_end": 1e-6, **times}), ranks=2)
                 self.assertEqual(outcome.codes, [0, 0], outcome.err)
                 said.append([line for line in (outcome.out + outcome.err).splitlines()
-                             if "relaxation time of friction" in line or "memory spans" in line])
+                             if re.match("note: .*(relaxation time of friction|memory spans)", line)])
             self.assertEqual(len(said[0]), 1, said)
             self.assertEqual(said, said[:1] * len(said))
 

@@ -32,7 +32,7 @@ std::complex<double> exact_exponent(double speed) {
 /// The same of a run that starts next to it: of three readings a quarter of a period apart,
 /// x_{n+1} = 2 Re z x_n − |z|² x_{n−1}, once the third root has died away.
 std::complex<double> found_exponent(double speed, double step) {
-  Column column{falling_friction(memory), speed, 0, 1e-7, 0, false};
+  Column column{falling_friction(memory), speed, 0, 1e-8, 0, false};
   column.shear = strength(speed);
   const auto quarter = std::lround(1.5 / step);
   const auto readings = run_column(column, step, 14 * quarter);
