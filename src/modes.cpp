@@ -24,8 +24,9 @@ namespace {
 void tell_of_idle(const Options& options, const Mesh& mesh, bool scheme) {
   std::vector<std::string> names = names_in(record_schema());
   std::erase(names, "output_folder");
-  for (const char* name : {"initial_velocity", "initial_rotation", "initial_sine_amplitude",
-                           "initial_sine_wavelength", "initial_file", "initial_time", "history_boundary", "surface_speed_ramp"})
+  for (const char* name :
+       {"initial_velocity", "initial_rotation", "initial_sine_amplitude", "initial_sine_wavelength",
+        "initial_file", "initial_time", "history_boundary", "surface_speed_ramp"})
     names.push_back(name);
   for (const std::string& boundary : mesh.boundary_names()) names.push_back("boundary_" + boundary + "_ramp");
   if (!scheme)

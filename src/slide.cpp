@@ -113,7 +113,8 @@ void slide(Options& options) {
   stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
-  Checkpoints checkpoints(body, recorder, request, scene_marks(options, mesh, materials, recorder.run(), initial.checksum),
+  Checkpoints checkpoints(body, recorder, request,
+                          scene_marks(options, mesh, materials, recorder.run(), initial.checksum),
                           record.checkpoint);
   print(recorder.forecast() + checkpoints.forecast());
   set_up.reset();

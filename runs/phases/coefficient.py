@@ -9,26 +9,31 @@ import sys
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
-from slipscale.reading.yaml_file import load
+from slipscale.reading import read_yaml
 
 NAMES = {"effective": "friction_coefficient", "mean": "friction_mean"}
 
 
 def coefficient(folder, model):
     """Of the folder of a run of `homogenize`. Raises Mistake."""
-    found = load(Path(folder) / "effective.yaml", written=True)
-    if NAMES[model] not in found:
+    report = read_yaml(Path(folder) / "effective.yaml")["homogenize"]
+    if NAMES[model] not in report:
         raise Mistake(f"{folder}/effective.yaml has no {NAMES[model]}: give homogenize the coefficients of all phases")
-    return float(found[NAMES[model]])
+    return float(report[NAMES[model]])
+
+
+def coefficient_of_run(folder):
+    """The coefficient that a run of `slide` was given for all phases, or None."""
+    given = read_yaml(Path(folder) / "run.yaml").get("friction_coefficient")
+    return None if given is None else float(given)
 
 
 def main(arguments):
     outcome, model, scene = arguments
     folder = Path(outcome).parent
     # What could not be homogenised fails as the run that needs it does.
-    text = f"friction_coefficient: {coefficient(folder, model)!r}\n" if (folder / "effective.yaml").is_file() else "{}\n"
-    Path(scene).parent.mkdir(parents=True, exist_ok=True)
-    Path(scene).write_text(text)
+    there = (folder / "effective.yaml").is_file()
+    Path(scene).write_text(f"friction_coefficient: {coefficient(folder, model)!r}\n" if there else "{}\n")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ def result(folder):
     window = [float(time) for time in job.params.windows[outcome]]
     found = measures(folder, window)
     found["regime_seen"] = found.pop("regime")
-    row = {**found, **costs(folder), **coefficient_of_run(folder)}
+    row = {**found, **costs(folder), "coefficient": coefficient_of_run(folder)}
     composite = Path(job.params.composite[outcome]).parent
     if not (composite / "summary.yaml").is_file():
         return row

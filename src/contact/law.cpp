@@ -8,6 +8,7 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/contact/law_at_node.hpp"
 
 namespace slipscale {
 namespace {
@@ -294,8 +295,9 @@ Coefficients coefficients_at(const FrictionChoice& choice, const ContactPlace& n
   return {mean(a.coefficient, b.coefficient), mean(a.kinetic, b.kinetic)};
 }
 
-/// A node's own constants, with the coefficients at a time.
-FrictionChoice at_place(const FrictionChoice& choice, const ContactPlace& node, double time) {
+}  // namespace
+
+FrictionChoice friction_at(const FrictionChoice& choice, const ContactPlace& node, double time) {
   FrictionChoice own = choice;
   own.phases.clear();
   own.coefficient_formula = nullptr;
@@ -309,6 +311,8 @@ FrictionChoice at_place(const FrictionChoice& choice, const ContactPlace& node, 
   own.slip_rate = between(a.slip_rate, b.slip_rate, node.second);
   return own;
 }
+
+namespace {
 
 /// As `friction_law`, but of one kind whatever the constants: without time or length to relax over, a
 /// regularised law is Coulomb's by its weights.
@@ -331,7 +335,7 @@ template <class Law>
 FrictionLaws one_each(const FrictionChoice& choice, double time_step,
                       const std::vector<ContactPlace>& nodes) {
   std::vector<Law> laws;
-  for (const ContactPlace& node : nodes) laws.push_back(law_of<Law>(at_place(choice, node, 0), time_step));
+  for (const ContactPlace& node : nodes) laws.push_back(law_of<Law>(friction_at(choice, node, 0), time_step));
   return laws;
 }
 

@@ -34,8 +34,10 @@ Schema initial_schema() {
        "equilibrium"},
       {"initial_file", Kind::text, "", absent, range::any,
        "displacement and velocity at the start from a file, added to the others: fields.h5 of a run, or its "
-       "folder, on any mesh that holds every node (1e-6 of its size is let pass), interpolated with the shape "
-       "functions of its cells; or a table .csv with columns x,y (m) and any of ux,uy (or u,v; m), vx,vy (m/s) "
+       "folder, on any mesh that holds every node (1e-6 of its size is let pass), interpolated with the "
+       "shape "
+       "functions of its cells; or a table .csv with columns x,y (m) and any of ux,uy (or u,v; m), vx,vy "
+       "(m/s) "
        "at the points of a grid, bilinear between them. Friction starts without memory of it"},
       {"initial_time", Kind::real, "s", absent, range::physical_non_negative,
        "the frame of initial_file; the last one without"},

@@ -52,7 +52,8 @@ SweepProblem::SweepProblem(const ModesBasis& basis, const std::vector<Eigen::Vec
   for (Eigen::Index k = 0; k < closed; ++k)
     if (const int place = body.sliding_places()[static_cast<std::size_t>(k)]; place >= 0) {
       const double light = 1 / std::sqrt(mass[place]);
-      gu.row(k) = light * body.direction() * reaction.row(k);
+      gu.row(k) =
+          light * body.direction() * body.closed()[static_cast<std::size_t>(k)].weight * reaction.row(k);
       there.row(k) = light * ku.row(place);
     }
   ku.array().colwise() /= mass.array().sqrt();

@@ -170,7 +170,8 @@ void Restart::expect_files() const {
   });
 }
 
-void Restart::check(const Mesh& mesh, const std::vector<Material>& materials, const std::string& initial) const {
+void Restart::check(const Mesh& mesh, const std::vector<Material>& materials,
+                    const std::string& initial) const {
   if (checksum_text(mesh.checksum) != mesh_)
     throw UserError("-restart: the mesh '" + mesh.file + "' has the checksum " +
                     checksum_text(mesh.checksum) + ", but the run in '" + folder_ + "' began with " + mesh_ +

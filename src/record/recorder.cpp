@@ -116,8 +116,7 @@ Eigen::Matrix3d compliance(const Eigen::Matrix3d& stiffness) {
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
-  for (const Material& material : materials)
-    found.push_back(compliance(material.stiffness));
+  for (const Material& material : materials) found.push_back(compliance(material.stiffness));
   return found;
 }
 

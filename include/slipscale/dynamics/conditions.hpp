@@ -63,7 +63,8 @@ struct InitialState {
   std::array<Quantity, 2> displacement{};  ///< added to all that, m
   std::string file = {};                   ///< of `fields`; empty: none
   std::optional<double> file_time = {};    ///< of its frame, s
-  std::shared_ptr<const InitialFields> fields = {};  ///< what the file says, added to all that; read by others
+  std::shared_ptr<const InitialFields> fields =
+      {};  ///< what the file says, added to all that; read by others
 
   Quantity pressure_at_start() const { return {pressure, pressure_formula}; }
   Quantity shear_at_start() const { return {shear, shear_formula}; }
