@@ -2,8 +2,8 @@
 
     python3 -m phases.picture TABLE.csv PICTURE.png
 
-A panel for each regime and pair of coefficients, layers of phases that differ in friction only: dots are the composites,
-lines the coefficients of the homogenised blocks, and open marks the friction that these have.
+A panel for each regime, shape and pair of coefficients, layers of phases that differ in friction only: dots are the
+composites, lines the coefficients of the homogenised blocks, and open marks the friction that these have.
 """
 
 import sys
@@ -21,19 +21,20 @@ LOOKS = {"composite": dict(color=BLACK, marker="o", linestyle="none"),
 
 
 def draw(rows):
-    rows = [row for row in rows if row["status"] == "ok" and row["shape"] == "layers" and row["phases"] == "same"]
-    pairs, regimes = (list(dict.fromkeys(row[name] for row in rows)) for name in ("pair", "regime"))
-    figure, panels = plt.subplots(len(pairs), len(regimes), figsize=(3.6 * len(regimes), 3.2 * len(pairs)), squeeze=False,
+    rows = [row for row in rows if row["status"] == "ok" and row["period"] and row["phases"] == "same"]
+    kinds = list(dict.fromkeys((row["shape"], row["pair"]) for row in rows))
+    regimes = list(dict.fromkeys(row["regime"] for row in rows))
+    figure, panels = plt.subplots(len(kinds), len(regimes), figsize=(3.6 * len(regimes), 3.0 * len(kinds)), squeeze=False,
                                   constrained_layout=True, sharex=True)
-    for line, pair in zip(panels, pairs):
+    for line, (shape, pair) in zip(panels, kinds):
         for axes, regime in zip(line, regimes):
+            here = [row for row in rows if (row["shape"], row["pair"], row["regime"]) == (shape, pair, regime)]
             for model, look in LOOKS.items():
-                own = sorted((row for row in rows if (row["pair"], row["regime"], row["model"]) == (pair, regime, model)),
-                             key=lambda row: row["period"])
+                own = sorted((row for row in here if row["model"] == model), key=lambda row: row["period"])
                 axes.plot([row["period"] for row in own], [row["friction"] for row in own], label=model, **look)
                 for mu in {row["coefficient"] for row in own} - {None}:
                     axes.axhline(mu, color=look["color"], linewidth=0.8)
-            axes.set(xscale="log", title=f"{pair}, {regime}")
+            axes.set(xscale="log", title=f"{shape}, {pair}, {regime}")
             axes.grid(alpha=0.25)
         line[0].set_ylabel("friction T/N [1]")
     for axes in panels[-1]:

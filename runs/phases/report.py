@@ -33,8 +33,8 @@ def case_table(cases):
         lines.append([what(kind), *kind[3:], f"{composite['friction']:.4f} ± {composite['friction_error']:.4f}",
                       *(f"{models[model]['coefficient']:.4f} ({models[model]['friction_off']:+.4f})" for model in MODELS),
                       composite["regime_seen"], f"{1e-3 * composite['frequency']:.0f}",
-                      *(shown(models[model]["frequency_off"], "+.1f", 100) for model in MODELS),
-                      *(shown(models[model]["spectrum_distance"], ".2f") for model in MODELS)])
+                      *(shown(models[model].get("frequency_off"), "+.1f", 100) for model in MODELS),
+                      *(shown(models[model].get("spectrum_distance"), ".2f") for model in MODELS)])
     return markdown(["composite", "elasticity", "coefficients", "regime", "T / N", "μ effective (T/N off)", "μ mean (off)",
                      "what it does", "frequency [kHz]", "effective off [%]", "mean off [%]", "spectrum, effective", "mean"], lines)
 

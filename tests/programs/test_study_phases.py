@@ -16,7 +16,7 @@ class Phases(studies.StudyCase):
         beta = (1 - 2 * 0.25) / (2 * (1 - 0.25))
         for row in rows:
             self.assertLess(float(row["energy_residual"]), 1e-10)
-            low, high = {"mild": (0.35, 0.7), "strong": (0.2, 1.2)}[row["pair"]]
+            low, high = {"strong": (0.2, 1.2), "extreme": (0, 1.6)}[row["pair"]]
             effective = math.tan(0.5 * (math.atan(beta * low) + math.atan(beta * high))) / beta
             expected = {"effective": effective, "mean": 0.5 * (low + high)}.get(row["model"])
             if expected:
@@ -27,7 +27,7 @@ class Phases(studies.StudyCase):
                 self.assertEqual(float(row["friction_off"]), 0)
                 self.assertAlmostEqual(float(row["friction"]), effective, delta=0.1 * effective)
         text = (self.out / "report.md").read_text()
-        self.assertIn("| layers of 1.25 mm | same | strong | quiet |", text)
+        self.assertIn("| strip of 1.25 mm | same | strong | quiet |", text)
         self.assertGreater((self.out / "friction.png").stat().st_size, 20000)
         self.assertIn("Nothing to be done", self.run_study())
 

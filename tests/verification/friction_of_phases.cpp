@@ -29,8 +29,7 @@ double expected_of(double poisson) {
 
 /// ⟨τ⟩/⟨p⟩ once a strip of so many periods of both phases, in equal parts, slides steadily, `across` elements
 /// in all. A memory of friction and dampers keep it from squealing; the steady state knows nothing of them.
-/// Four periods are as high as wide, more of them shallower: the strain of one reaches no deeper than a
-/// period.
+/// Of many periods the strip is lower, three of them high: what one does reaches no deeper than that.
 double friction_of(int periods, int across, double poisson = 0) {
   const double expected = expected_of(poisson), height = std::min(0.75, 3.0 / periods);
   Scene scene;
@@ -72,7 +71,7 @@ TEST(FrictionOfPhases, IsNotTheMeanOfTheirCoefficients) {
   EXPECT_GT(mean, 1.05 * expected);
   const double many = friction_of(4, 128);
   EXPECT_NEAR(many, expected, 0.02 * expected);
-  report({format("Slow sliding, mu = {:g} and {:g} in equal parts, nu = {:g}: mean {:g}", low, high, 0, mean),
+  report({format("Slow sliding, mu = {:g} and {:g} in equal parts, nu = {:g}: mean {:g}", low, high, 0.0, mean),
           "shear over normal force: one period of 64 elements; four of 32", format("{:.4f} +- 2 %", expected),
           format("{:.4f} ({:.4f} with 32); {:.4f}", fine, coarse, many), "",
           "tan<arctan(beta mu)>/beta, derived in the test"});
