@@ -230,10 +230,10 @@ ROWS = {
     "initial_displacement": Row([Answer({"OPTION": "0,-1e-7", "surface_height": -1e-6}, first("energy/strain"), same),
                                  Answer({"OPTION": "1e-7*y/H,0"}, first("energy/strain"),
                                         becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
-    # Interpolated: test_initial_file.py. The table holds a shear, the run falls from rest.
+    # Interpolated: test_initial_file.py. The table holds a shear, the run rises from rest.
     "initial_file": Row([Answer({"OPTION": "sheared.csv"}, first("energy/strain"),
                                 becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
-    "initial_time": Row([Answer({"OPTION": 0}, first("energy/kinetic"), becomes(0), base={"initial_file": "falling"})],
+    "initial_time": Row([Answer({"OPTION": 0}, first("energy/kinetic"), less, base={"initial_file": "rising"})],
                         [Idle({"OPTION": 0}, "without -initial_file"),
                          Idle({"initial_file": "sheared.csv", "OPTION": 0}, "with a table")]),
     "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),

@@ -52,7 +52,7 @@ class EveryOption(InScratch):
         (self.folder / "four_times.yaml").write_text(f"stiffness: [{FOUR_TIMES}]\ndensity: {DENSITY}\n")
         (self.folder / "sheared.csv").write_text("x,y,ux\n" + "".join(f"{x},{y},{1e-7 * y / SIDE}\n" for x in (0, SIDE) for y in (0, SIDE)))
         body = {name: value for name, value in SCENE.items() if name.startswith(("mesh_", "material_"))}
-        self.run_scene({**body, "body_acceleration": "0,-1e6", "time_end": 1e-7, "fields_every": 1, "output_folder": "falling"})
+        self.run_scene({**body, "body_acceleration": "0,1e6", "time_end": 1e-7, "fields_every": 1, "output_folder": "rising"})
         self.runs = {}
 
     def result(self, scene, ranks):

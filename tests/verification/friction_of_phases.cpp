@@ -50,7 +50,7 @@ double friction_of(int periods, int across, double poisson = 0) {
   const Model model(mesh, {isotropic(2 * (1 + poisson), poisson, 1)}, Model::Storage::full);
   const double step = 0.5 * stable_step(largest_frequency(PETSC_COMM_WORLD, model).sharp, 0.5, scene.damping);
   SlidingBody body(PETSC_COMM_WORLD, model, scene, step);
-  const long steps = std::lround(12 / step);
+  const long steps = std::lround((height < 0.5 ? 6 : 12) / step);  // a low strip comes to rest sooner
   for (long n = 0; n <= steps; ++n) body.advance(n == steps);
   double sums[2] = {0, 0};
   for (const Vector2& force : body.contact().force) sums[0] += force[0], sums[1] += force[1];
@@ -71,10 +71,11 @@ TEST(FrictionOfPhases, IsNotTheMeanOfTheirCoefficients) {
   EXPECT_GT(mean, 1.05 * expected);
   const double many = friction_of(4, 128);
   EXPECT_NEAR(many, expected, 0.02 * expected);
-  report({format("Slow sliding, mu = {:g} and {:g} in equal parts, nu = {:g}: mean {:g}", low, high, 0.0, mean),
-          "shear over normal force: one period of 64 elements; four of 32", format("{:.4f} +- 2 %", expected),
-          format("{:.4f} ({:.4f} with 32); {:.4f}", fine, coarse, many), "",
-          "tan<arctan(beta mu)>/beta, derived in the test"});
+  report(
+      {format("Slow sliding, mu = {:g} and {:g} in equal parts, nu = {:g}: mean {:g}", low, high, 0.0, mean),
+       "shear over normal force: one period of 64 elements; four of 32", format("{:.4f} +- 2 %", expected),
+       format("{:.4f} ({:.4f} with 32); {:.4f}", fine, coarse, many), "",
+       "tan<arctan(beta mu)>/beta, derived in the test"});
 }
 
 /// The more periods, the nearer to the half-plane of the derivation; the rest is the mesh's, first order at
