@@ -38,7 +38,7 @@ def shown(folder):
     row.update(closed=int(modes.state["nodes_in_contact"]), opened=int(modes.state["nodes_open"]), growing=len(grow))
     run = Run(folder)
     contact = run.contact
-    found = seen(contact, float(run.options["boundary_top_ramp"]), most=600, noise=1e-6)
+    found = seen(contact, float(run.options["parameters_rise"]), most=1000)
     if found is None:
         return {**row, "reason": "no stretch in which the same nodes touch and all of them slip"}
     exponents, rows = found

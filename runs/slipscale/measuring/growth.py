@@ -84,9 +84,15 @@ def even_until(time):
     return int(uneven[0]) + 1 if len(uneven) else len(time)
 
 
-def seen(contact, begin=0.0, most=300, noise=1e-6):
+def rounding(u, moved):
+    """What rounding makes of displacements `u`, relative to the motion `moved` that is told from them; with a margin."""
+    return 1e3 * np.finfo(float).eps * np.abs(u).max() / np.abs(moved).max()
+
+
+def seen(contact, begin=0.0, most=300, noise=None):
     """(Exponents, rows) of the velocities along x of the contact nodes in the longest linear stretch of `contact`
-    (slipscale.Run.contact) after `begin` s, of its last `most` rows; None where there is none."""
+    (slipscale.Run.contact) after `begin` s, of its last `most` rows; None where there is none. `noise` as in
+    `exponents`; None where nothing but rounding disturbs the motion, which the stretch is chosen for."""
     first, last = int(np.searchsorted(contact.time, begin)), even_until(contact.time)
     stretch = linear_stretch(contact.status[first:last])
     if stretch is None:
@@ -101,6 +107,8 @@ def seen(contact, begin=0.0, most=300, noise=1e-6):
     if len(moved) < FEWEST or not np.abs(moved).max() > 0:
         return None
     interval = (contact.time[rows][-1] - contact.time[rows][0]) / (rows.stop - rows.start - 1)
+    if noise is None:
+        noise = max(1e-11, rounding(contact.u[rows, :, 0][:, chosen], moved))
     return exponents(moved, interval, noise), rows
 
 
