@@ -9,7 +9,7 @@ import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from slipscale.parser import Parser
 from slipscale.pictures.colours import BLUE, GREEN, ORANGE
@@ -50,6 +50,8 @@ def draw(rows):
             axes.plot([height + shift for height in heights], [np.median(values(own, height, name)) for height in heights],
                       f"{marker}-", color=colour, label=regime)
         axes.set(ylabel=label, yscale="log")
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_minor_formatter(NullFormatter())
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.grid(alpha=0.25)
     for axes in panels[-1]:

@@ -33,6 +33,7 @@ ENERGY_TERMS = {  # term: (what the legend calls it, colour, line style)
     "kinetic": ("kinetic energy", ORANGE, "-"),
 }
 NO_LINE = ("residual", "flowed")
+FAR = 20  # times the fastest motion: the surface's speed beyond it would leave nothing to be seen of the portrait
 ROUNDING = 1e-10  # relative: what varies less does not vary
 
 
@@ -45,9 +46,9 @@ def phase_portrait(axes, figure, history, point, window, surface_speed):
     lines.set_array(history.time[rows][:-1] * MICRO)
     axes.add_collection(lines)
     axes.autoscale()
-    widen(axes.get_xlim, axes.set_xlim)
+    widen(axes.get_xlim, axes.set_xlim, 1e-4)
     figure.colorbar(lines, ax=axes, label="time [µs]", pad=0.02)
-    if surface_speed is not None:
+    if surface_speed is not None and abs(surface_speed) < FAR * np.abs(v).max():
         axes.axhline(surface_speed, color=VERMILION, linestyle="--", linewidth=1.2)
         axes.annotate("speed of the surface: stick", (0.98, surface_speed), (0, 4), color=VERMILION, ha="right",
                       xycoords=("axes fraction", "data"), textcoords="offset points")
