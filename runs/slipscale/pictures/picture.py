@@ -18,7 +18,7 @@ from slipscale.pictures.drawing import plt, shown, write_picture
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
 PERIODS_IN_MAP = 12
-LONGEST = 110  # characters of a line above the panels
+LONGEST = 140  # characters of a line above the panels
 
 
 def draw(folder, window=None, point=0):
