@@ -111,7 +111,7 @@ void CellDamping::density(std::vector<double>& of_cells) {
     const int cell = cells_[c].local;
     const auto areas = corner_areas(cells.corners_of(cell));
     const auto nodes = cells.nodes_of(cell);
-    const double density = model_.materials[cells.region[cell]].density;
+    const double density = model_.materials[cells.region[cell]].at(cell).density;
     double work = work_[c];
     for (std::size_t k = 0; k < nodes.size(); ++k)
       work += mass_ * density * areas[k] * mass_work_.data()[nodes[k]][0];
