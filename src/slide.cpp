@@ -30,6 +30,8 @@ const std::vector<std::string> may_change{"restart",
                                           "history_interval",
                                           "contact_every",
                                           "contact_interval",
+                                          "interfaces_every",
+                                          "interfaces_interval",
                                           "fields_every",
                                           "fields_interval",
                                           "fields_times",
@@ -103,6 +105,8 @@ void slide(Options& options) {
   if (restart && is_finished(*restart, step)) return;
 
   SlidingBody body(comm, model, scene, step.step);
+  if (record.contact_sums) body.keep_contact_sums();
+  if (record.cell_damping()) body.keep_cell_damping();
   if (restart) {
     restart->read(body.state());
     body.resume();

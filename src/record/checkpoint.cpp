@@ -35,7 +35,7 @@ void rename_or_throw(const std::string& from, const std::string& to) {
 }
 
 /// Of what a checkpoint holds, for a program that expects another to say so.
-constexpr const char* format_of_checkpoints = "2";
+constexpr const char* format_of_checkpoints = "3";
 
 /// A folder by the name of one of the files would stop the next checkpoint.
 void refuse_folders(const std::string& folder) {
@@ -162,6 +162,7 @@ void Restart::expect_files() const {
   on_root(comm_, folder_, [&] {
     std::vector<std::string> expected{"history.h5", "summary.yaml"};
     if (position_.contact_rows > 0) expected.push_back("contact.h5");
+    if (position_.interface_rows > 0) expected.push_back("interfaces.h5");
     if (position_.frames > 0) expected.push_back("fields.h5");
     for (const std::string& file : expected)
       if (!fs::exists(fs::path(folder_) / file))

@@ -98,13 +98,19 @@ def strain_energy(stress, modulus):
 
 def quantities(run):
     return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} &
-               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low"})
+               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low", "damping_work"})
 
 
 def frames(run):
     return len({name.split("/")[1] for name in run.fields if name.startswith("frames/")})
 
 
+FIBRE = {"mesh_file": "two.msh", "material_fibre_young": YOUNG, "material_fibre_poisson": POISSON,
+         "material_fibre_density": DENSITY}
+FOLLOWED = {**FIBRE, "interfaces_region": "fibre"}
+NO_REGION = "without -interfaces_region"
+STRENGTHS = {"interfaces_normal_strength": 1e6, "interfaces_shear_strength": 1e6}
+INDEX = lambda run: run.interfaces["index"].sum()
 SAMPLES = {"statistics_from": 1e-6, "statistics_to": 3e-6, "statistics_every": 5}  # steps 50, 55, ..., 150
 NO_WINDOW = "without -statistics_from"
 QUANTILE = lambda run: run.statistics["statistics/stress/quantile_high"].sum()
@@ -308,6 +314,9 @@ ROWS = {
                             Idle({"fields_every": 5, "OPTION": 1e-6}, "-fields_every contradicts -fields_interval")]),
     "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))],
                          [needs_surface(10)]),
+    # That they add up: test_sums.py.
+    "contact_sums": Row([Answer({"OPTION": "false"}, lambda run: int("sums/friction_work" in run.contact), less)],
+                        [needs_surface("true")]),
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),
@@ -318,8 +327,23 @@ ROWS = {
                               Answer({"OPTION": "u,v,stress,strain"}, quantities, becomes(4),
                                      base={"fields_every": 50}),
                               Answer({"OPTION": "u,von_mises,principal"}, quantities, becomes(4),
-                                     base={"fields_every": 50})],
+                                     base={"fields_every": 50}),
+                              Answer({"OPTION": "u,damping_work"}, quantities, becomes(2),
+                                     base={"fields_every": 50, "damping_stiffness": 2e-9})],
                              [Idle({"OPTION": "u,v"}, "without -fields_every, -fields_interval or -fields_times")]),
+    # Of which the numbers are looked at in test_interfaces.py.
+    "interfaces_region": Row([Answer({"OPTION": "fibre"}, has("interfaces.h5"), more, base=FIBRE)],
+                             [Idle({"OPTION": "block"}, "the only region of the mesh")]),
+    "interfaces_every": Row([Answer({"OPTION": 50}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                            [Idle({"OPTION": 50}, NO_REGION)]),
+    "interfaces_interval": Row([Answer({"OPTION": 1e-6}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                               [Idle({"OPTION": 1e-6}, NO_REGION)]),
+    # Pulled at its top: pressed, no interface is under tension.
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, INDEX, more,
+                                              base={**FOLLOWED, **STRENGTHS, "boundary_top_y": 1.4e-6})],
+                                      [Idle({"OPTION": 1e6}, NO_REGION)]),
+    "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
+                                     [Idle({"OPTION": 1e6}, NO_REGION)]),
     "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
                             Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
     "statistics_to": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES)],
@@ -328,6 +352,10 @@ ROWS = {
                             [Idle({"OPTION": 10}, NO_WINDOW)]),
     "statistics_quantile": Row([Answer({"OPTION": 0.9}, QUANTILE, less, base=SAMPLES)],
                                [Idle({"OPTION": 0.9}, NO_WINDOW)]),
+    "statistics_damping": Row([Answer({"OPTION": "true"}, lambda run: int("statistics/damping_power" in run.statistics), more,
+                                      base={**SAMPLES, "damping_stiffness": 2e-9})],
+                              [Idle({"OPTION": "true"}, NO_WINDOW),
+                               Idle({**SAMPLES, "OPTION": "true"}, "nothing damps the body")]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/summary.yaml" in run.files), more)],
                          ALWAYS),
     # For people in front of a terminal: test_progress_is_for_terminals.
