@@ -22,7 +22,7 @@ void SlidingBody::set_contact_nodes() {
   const Mesh& mesh = model_.mesh;
   const Boundary& boundary = *mesh.find_boundary(scene_.surface->boundary);
   const auto length = tributary_lengths(mesh, boundary);
-  const auto places = contact_places(mesh, boundary);
+  const auto places = slipscale::contact_places(mesh, boundary);
   std::string fault, shared;
   for (int i : boundary.nodes) {
     const int slot = boundary_.slot_of(i);
