@@ -166,7 +166,8 @@ def draw(rows, orientation=()):
     for panel in axes.flat:
         panel.grid(which="both", alpha=0.2)
         if panel.get_legend_handles_labels()[0]:
-            panel.legend(fontsize="small")
+            panel.legend(fontsize="small", loc="upper right" if panel is axes[0, 0] else "upper left")
+    axes[0, 0].set_ylim(top=200 * axes[0, 0].get_ylim()[1])  # room for the legend
     return figure
 
 

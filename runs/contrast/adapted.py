@@ -19,8 +19,8 @@ def adapted_rows(outcome):
     `nearest`, for the trial whose spectrum came nearest whatever it matched; one row with the reason if there is no
     adapt.yaml.
 
-    Columns: the options, `level`, status and reason of the level, `value`, `match`, COMPARED as before_ and after_, and
-    the `folder` of the run after.
+    Columns: the options, `level`, status and reason of the level, `value`, `match`, COMPARED as before_ and after_, the
+    `folder` of the run after; of the level of modes its misfit before and after, and all `changes`.
     """
     outcome = Path(outcome)
     ended = load(outcome, written=True)
@@ -36,11 +36,18 @@ def adapted_rows(outcome):
         seen = said.get("surface", {})
         rows.append({**options, "level": level, "status": said["status"], "reason": said["reason"], **costs,
                      "value": said.get("value"), "match": said.get("match"), **before, **after(said.get("after")),
+                     "misfit_before": said.get("misfit_before"), "misfit_after": said.get("misfit_after"),
+                     "changes": in_words(said.get("changes")),
                      **{f"time_seen_{scale}": motion["time_seen"] for scale, motion in seen.items()}})
     if nearest := found["nearest"]:
         rows.append({**options, "level": "nearest", "status": "ok", "reason": None, **costs,
                      "value": nearest["value"], **before, **after(nearest)})
     return rows
+
+
+def in_words(changes):
+    """Values by the names of options, as one text; None without."""
+    return "; ".join(f"{name} {value:.4g}" for name, value in changes.items()) if changes else None
 
 
 def cases_of(rows):

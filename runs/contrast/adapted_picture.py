@@ -25,7 +25,8 @@ LEVELS = {"scaling": ("T: ωT kept", "<", SKY), "frequency": ("T: one frequency"
           "search": ("T: search", "D", VERMILION)}
 WAYS = {"time": ("T", "o", VERMILION), "coefficient": ("µ", "s", ORANGE), "damping": ("damping", "p", PURPLE),
         "slip_rate": ("slip-rate form", "*", GREEN), "density": ("density", "v", BLUE),
-        "density_time": ("density, then T", "^", BLUE)}
+        "density_time": ("density, then T", "^", BLUE), "modes": ("T by modes", "h", SKY),
+        "modes_all": ("T, µ, density, damping by modes", "X", BLACK)}
 
 
 def examples(cases):

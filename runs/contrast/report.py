@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contrast.adapted import WAYS, before_of, best_level, cases_of, level_of
+from contrast.adapted import BY_MODES, WAYS, before_of, best_level, cases_of, level_of
 from contrast.morphologies import COMPOSITE, fold, groups_of, paired, rank_correlation, spread
 from slipscale.reports.publish import bullets, failures, folded, publish
 from slipscale.running.studies import started_by_snakemake
@@ -10,6 +10,7 @@ from slipscale.running.table import markdown, read_csv
 
 GIGA, KILO = 1e-9, 1e-3
 RUN = ("young", "diameter", "size", "seed", "model")
+ELSE = [way for way in WAYS if way != "time" and way not in BY_MODES]
 MODULI = ("C11", "C22", "C12", "C66")
 
 
@@ -116,15 +117,31 @@ def time_table(cases):
 
 
 def other_table(cases):
-    header = ["inclusions [GPa]", "morphology", "before", *(words for way, words in WAYS.items() if way != "time")]
+    header = ["inclusions [GPa]", "morphology", "before", *(WAYS[way] for way in ELSE)]
     lines = []
     for name, case in cases.items():
-        others = {way: (case.get((way, level_of(way))), case.get((way, "nearest"))) for way in WAYS if way != "time"}
+        others = {way: (case.get((way, level_of(way))), case.get((way, "nearest"))) for way in ELSE}
         if any(search for search, _ in others.values()):
             lines.append([f"{name[0]:g}", name[3], f"{before_of(case):.2f}",
                           *(f"{said(search)} (nearest {said(nearest)})" if search else "-"
                             for search, nearest in others.values())])
     return markdown(header, lines)
+
+
+def modes_table(cases):
+    """Of the levels of modes: their own misfit, and what that does to the spectrum."""
+    lines = []
+    for name, case in cases.items():
+        for way in BY_MODES:
+            if row := case.get((way, "modes")):
+                misfit, distance = ([row[f"misfit_{when}"] for when in ("before", "after")],
+                                    [row[f"{when}_spectrum_distance"] for when in ("before", "after")])
+                lines.append([f"{name[0]:g}", name[3], WAYS[way],
+                              *(" → ".join("-" if value is None else f"{value:.2f}" for value in pair)
+                                for pair in (misfit, distance)),
+                              row["changes"] or "-", "yes" if row["status"] == "ok" else "no"])
+    return markdown(["inclusions [GPa]", "morphology", "adapted", "misfit of the growing modes", "distance of the spectrum",
+                     "to", "counts as adapted"], lines)
 
 
 def adapted_lines(cases):
@@ -203,6 +220,10 @@ Adapting T of the homogenised block to one morphology: the value in s and the di
 Adapting something else (`density` the frequency by the density in kg/m³, `then T` goes on from there):
 
 {other_table(cases)}
+Bringing the growing modes of the block to those of the composite, which `modes` finds in seconds; misfit 0 is the same growth
+and frequency of each, 1 or so that none grows or none is near:
+
+{modes_table(cases)}
 {bullets(lines)}
 {folded("Why adaptations failed", reasons(rows))}
 {folded("All runs", run_table(rows))}"""

@@ -16,6 +16,9 @@ from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, run_name, write_csv
 from stability.predicted import cycle_takes, expected, growing, rival
 
+MOST, FEWEST = 600, 200  # rows in which growth is looked for: five periods of the slowest squeal at the least
+MARGIN = 30  # rows, a period, before a node is seen to open
+
 job = started_by_snakemake(globals())
 out = Path(job.params.out)
 
@@ -38,9 +41,9 @@ def shown(folder):
     row.update(closed=int(modes.state["nodes_in_contact"]), opened=int(modes.state["nodes_open"]), growing=len(grow))
     run = Run(folder)
     contact = run.contact
-    found = seen(contact, float(run.options["boundary_top_ramp"]), most=600, noise=1e-6)
+    found = seen(contact, float(run.options["parameters_rise"]), MOST, fewest=FEWEST, margin=MARGIN)
     if found is None:
-        return {**row, "reason": "no stretch in which the same nodes touch and all of them slip"}
+        return {**row, "reason": f"no {FEWEST} rows on end in which the same nodes touch and all of them slip"}
     exponents, rows = found
     strongest = exponents.p[0]
     mode = min(modes.modes, key=lambda mode: abs(mode.scheme_p - strongest))

@@ -14,6 +14,7 @@ from slipscale.reading import UnreadableRun
 from slipscale.running.table import read_csv
 
 COLOURS = {"plain": BLUE, "composite": VERMILION, "homogenised": ORANGE}
+TIMES = (("modes", "o"), ("scheme", "x"))  # against what: continuous time, or the time scheme of the run
 
 
 def draw(options):
@@ -27,7 +28,7 @@ def draw(options):
                   ("growth_seen", "growth_modes", "growth_scheme", "frequency_seen", "frequency_modes", "frequency_scheme")}
         panels[0].plot(column["growth_modes"] / 1e3, column["growth_seen"] / 1e3, "o", color=colour, label=model)
         panels[1].plot(column["frequency_modes"] / 1e3, column["frequency_seen"] / 1e3, "o", color=colour)
-        for names, marker in (("modes", "o"), ("scheme", "x")):
+        for names, marker in TIMES:
             panels[2].loglog(np.maximum(np.abs(column["frequency_seen"] / column[f"frequency_{names}"] - 1), 1e-13),
                              np.maximum(np.abs(column["growth_seen"] / column[f"growth_{names}"] - 1), 1e-13),
                              marker, color=colour)
@@ -36,12 +37,16 @@ def draw(options):
         axes.plot(ends, ends, color=BLACK, linewidth=0.8)
         axes.grid(alpha=0.25)
         axes.set(xlabel=f"{name} by modes [{unit}]", ylabel=f"{name} shown by slide [{unit}]")
-    panels[0].legend()
+    for (_, marker), words in zip(TIMES, ("in continuous time", "of the time scheme")):
+        panels[2].plot([], [], marker, color=BLACK, label=f"from the modes {words}")
+    for axes in (panels[0], panels[2]):
+        axes.legend(loc="upper left")
     panels[0].set_title("(a) Growth")
     panels[1].set_title("(b) Frequency")
     panels[2].grid(alpha=0.25)
-    panels[2].set(title="(c) Difference: o in continuous time, x the scheme's", xlabel="of the frequency, relative",
-                  ylabel="of the growth rate, relative")
+    low, high = panels[2].get_ylim()
+    panels[2].set(title="(c) Difference", xlabel="of the frequency, relative", ylabel="of the growth rate, relative",
+                  ylim=(low, high * 1e3))  # room for the legend
     return figure
 
 

@@ -2,17 +2,16 @@
 
     python3 -m stability.map_picture out/stability/table.csv out/stability/map.csv picture.png
 
-Colour is the growth rate of the fastest mode, below it the least damped one; a cell says its frequency and that of the
-limit cycle in kHz, - where nothing vibrates. A frame marks where one grows and nothing vibrates, or the other way.
+Colour is the growth rate of the fastest mode, grey where none grows; a cell says its frequency and that of the limit
+cycle in kHz, - where nothing vibrates. A frame marks where one grows and nothing vibrates, or the other way.
 """
 
 import sys
 
 import numpy as np
-from matplotlib.colors import TwoSlopeNorm
 
 from slipscale.parser import Parser
-from slipscale.pictures.colours import BLACK
+from slipscale.pictures.colours import BLACK, BLUE
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.reading import UnreadableRun
 from slipscale.running.table import read_csv
@@ -35,15 +34,16 @@ def kilohertz(frequency):
 
 def panel(axes, rows, largest):
     coefficients, times, growth = grid_of(rows)
-    image = axes.imshow(growth / 1e3, origin="lower", aspect="auto", cmap="RdBu_r",
-                        norm=TwoSlopeNorm(0, -largest / 1e3, largest / 1e3))
+    colours = plt.get_cmap("YlOrRd").copy()
+    colours.set_under("0.93")
+    image = axes.imshow(growth / 1e3, origin="lower", aspect="auto", cmap=colours, vmin=0, vmax=largest / 1e3)
     for row in rows:
         at = times.index(row["time"]), coefficients.index(row["coefficient"])
         vibrates = row["amplitude"] > STILL
         axes.annotate(f"{kilohertz(row['fastest'])}\n{kilohertz(row['frequency'] if vibrates else None)}", at, ha="center",
-                      va="center", fontsize="x-small")
+                      va="center", fontsize="small", color="white" if (row["growth"] or 0) > 0.6 * largest else BLACK)
         if vibrates != bool(row["growing"]):
-            axes.add_patch(plt.Rectangle((at[0] - 0.45, at[1] - 0.45), 0.9, 0.9, fill=False, edgecolor=BLACK, linewidth=2))
+            axes.add_patch(plt.Rectangle((at[0] - 0.45, at[1] - 0.45), 0.9, 0.9, fill=False, edgecolor=BLUE, linewidth=2.5))
     axes.set_xticks(range(len(times)), [f"{time * 1e6:g}" for time in times])
     axes.set_yticks(range(len(coefficients)), [f"{value:g}" for value in coefficients])
     axes.set(xlabel="relaxation time T [µs]", ylabel="coefficient of friction", title=f"h = {rows[0]['size'] * 1e3:g} mm")
@@ -60,7 +60,7 @@ def draw(options):
         row["growth"] is not None for row in rows) else 1.0
     for axes, size in zip(panels[0], sizes):
         image = panel(axes, [row for row in rows if row["size"] == size], largest)
-    figure.colorbar(image, ax=panels[0], label="growth rate of the fastest mode [1/ms]")
+    figure.colorbar(image, ax=panels[0], label="growth rate of the fastest mode [1/ms]; grey: none grows", extend="min")
     figure.suptitle("Frequency of the fastest mode that grows and, below, of the limit cycle [kHz]\n"
                     "framed: one without the other", fontsize=11)
     return figure

@@ -10,22 +10,29 @@ from tradeoff.knobs import groups_of, reference_of
 
 job = started_by_snakemake(globals())
 config = job.params.config
-folders = {Path(outcome).parent.name: Path(outcome).parent for outcome in job.input.runs}
+folders, relocalised = ({Path(outcome).parent.name: Path(outcome).parent for outcome in outcomes}
+                        for outcomes in (job.input.runs, job.input.relocalised))
+
+
+def ended(folder):
+    return load(folder / "outcome.yaml", written=True)
 
 
 def row_of(case, knob, run):
     """A failed run keeps its reason; one whose reference failed has no errors."""
     name = run_name(run)
-    outcome = load(folders[name] / "outcome.yaml", written=True)
-    row = {**run, "knob": knob, "run": name, **{entry: outcome[entry] for entry in ("status", "reason")}}
-    if outcome["status"] != "ok":
+    put_back = relocalised.get(name)
+    last = ended(put_back or folders[name])
+    row = {**run, "knob": knob, "run": name, **{entry: last[entry] for entry in ("status", "reason")}}
+    if last["status"] != "ok":
         return row
     window = [float(time) for time in config["cases"][case]["window"]]
-    row.update(measured(folders[name], window), **costs_of(folders[name], outcome))
+    row.update(measured(folders[name], window, put_back),
+               **costs_of(folders[name], ended(folders[name]), [(put_back, last)] if put_back else []))
     reference = reference_of(config, run) if knob in config["knobs"] else {**run, "model": "whole"}
     other = folders.get(run_name(reference))
-    if other is not None and load(other / "outcome.yaml", written=True)["status"] == "ok":
-        row.update(errors_of(folders[name], other, window), reference=other.name)
+    if other is not None and ended(other)["status"] == "ok":
+        row.update(errors_of(folders[name], other, window, put_back), reference=other.name)
     return row
 
 

@@ -7,34 +7,36 @@ from slipscale.planning.values import averages, cycle_distance, stress
 
 CONTACT = ("friction", "frequency", "amplitude", "stick", "open", "velocity")
 BULK = ("displacement", "normal_force")
-PERIODS = ("matrix", "inclusion")
+PHASES = ("matrix", "inclusion")
 
 
-def values_of(folder, window):
-    """Pairs of value and standard error by name; stresses of regions that have frames."""
+def values_of(folder, window, relocalised=None):
+    """Pairs of value and standard error by name; stresses of regions that have frames, those of the folder `relocalised`
+    where the microstructure was put back."""
     found = averages(folder, window, [*CONTACT, *BULK])
-    if (folder / "fields.h5").is_file():
-        for region in PERIODS:
+    held, *file = (relocalised, "relocalized.h5", "relocalize") if relocalised else (folder, "fields.h5", "slide")
+    if (held / file[0]).is_file():
+        for region in PHASES:
             try:
-                found[f"stress_{region}"] = stress(folder, window, region)
-            except Mistake:  # a region that is not there, as of a strip or a homogeneous block
+                found[f"stress_{region}"] = stress(held, window, region, *file)
+            except Mistake:  # a region that is not there, as of a block without inclusions
                 continue
     return found
 
 
-def measured(folder, window):
+def measured(folder, window, relocalised=None):
     """Columns: each value and its standard error; regime and whether it had settled."""
     found = measures(folder, window)
     columns = {"regime": found["regime"], "settled": found["settled"]}
-    for name, (value, error) in values_of(folder, window).items():
+    for name, (value, error) in values_of(folder, window, relocalised).items():
         columns |= {name: value, f"{name}_scatter": error}
     return columns
 
 
-def errors_of(folder, reference, window):
+def errors_of(folder, reference, window, relocalised=None):
     """Columns NAME_off, relative differences from the reference, NAME_bar, the standard error of each over time of both;
     spectrum_off, the distance of the spectra, spectrum_bar, that of the halves of the reference's window."""
-    own, other = values_of(folder, window), values_of(reference, window)
+    own, other = values_of(folder, window, relocalised), values_of(reference, window)
     columns = {}
     for name in own.keys() & other.keys():
         (value, error), (true, true_error) = own[name], other[name]
@@ -46,11 +48,14 @@ def errors_of(folder, reference, window):
     return dict(sorted(columns.items()))
 
 
-def costs_of(folder, outcome):
-    """Seconds of one core, node-steps, peak memory and disk, B, of a run."""
-    found = costs(folder)
-    return {"seconds": outcome["cpu_seconds"], **{name: found[name] for name in ("nodes", "steps", "step", "node_steps")},
-            "memory": outcome["peak_memory"], "disk": sum(file.stat().st_size for file in folder.iterdir()),
+def costs_of(folder, outcome, after=()):
+    """Seconds of one core, node-steps, peak memory and disk, B, of a run; `after`: pairs of folder and outcome of what
+    went on from it."""
+    found, all_of = costs(folder), [(folder, outcome), *after]
+    return {"seconds": sum(of["cpu_seconds"] for _, of in all_of),
+            **{name: found[name] for name in ("nodes", "steps", "step", "node_steps")},
+            "memory": max(of["peak_memory"] for _, of in all_of),
+            "disk": sum(file.stat().st_size for held, _ in all_of for file in held.iterdir()),
             "energy_residual": found["energy_residual"]}
 
 

@@ -9,6 +9,8 @@ velocity, displacement, normal_force, stress_matrix, stress_inclusion, spectrum.
 
 import sys
 
+from matplotlib.ticker import FuncFormatter
+
 from slipscale.mistakes import Mistake
 from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
@@ -16,41 +18,83 @@ from slipscale.pictures.drawing import few_ticks, plt, write_picture
 from slipscale.running.table import read_csv
 from tradeoff.front import front
 
-KNOBS = {"cells": (BLUE, "o"), "sizes": (ORANGE, "s"), "steps": (GREEN, "^"), "beta2": (VERMILION, "v"),
-         "damping": (PURPLE, "D"), "storage": (SKY, "P"), "cadence": (BLACK, "x"), "models": (VERMILION, "*"),
-         "heights": (PURPLE, "<"), "together": (BLACK, ".")}
-SMALLEST = 1e-5  # of errors that are drawn
+# Told apart by form as well as by colour; no two have both in common.
+KNOBS = {"cells": ("kind of cells", BLUE, "o"), "sizes": ("size of cells", ORANGE, "s"),
+         "steps": ("part of the stable step", GREEN, "^"), "together": ("cells, size and step together", SKY, "."),
+         "beta2": ("beta2 of the scheme", VERMILION, "v"), "damping": ("damping", PURPLE, "D"),
+         "storage": ("single or double storage", SKY, "P"), "cadence": ("rows of the history", BLACK, "x"),
+         "homogeneous": ("homogenised block", VERMILION, "*"), "relocalised": ("… and relocalised", VERMILION, "X"),
+         "strip": ("strip of microstructure", GREEN, "h"), "heights": ("height of the block", PURPLE, "<")}
+COSTS = {"seconds": "seconds of one core", "node_steps": "node-steps", "memory": "peak memory [MB]", "disk": "disk [MB]"}
+FACTORS = {"memory": 1e-6, "disk": 1e-6}
+ERRORS = {"friction": "friction T / N", "frequency": "dominant frequency", "amplitude": "amplitude of friction",
+          "stick": "sticking part", "open": "open part", "velocity": "rms velocity of the contact",
+          "displacement": "rms displacement of the contact", "normal_force": "normal force",
+          "stress_matrix": "99 % of the matrix's stress", "stress_inclusion": "99 % of the inclusions' stress"}
+PERCENT = 100
+SMALLEST = 1e-3  # of errors that are drawn, %
+LEGEND = 0.9  # inches above the panels
 
 
-def panel(axes, rows, cost, error, case):
-    for knob in dict.fromkeys(row["knob"] for row in rows):
-        of = [row for row in rows if row["knob"] == knob and row[error] is not None]
-        colour, marker = KNOBS.get(knob, (BLACK, "+"))
-        axes.plot([row[cost] for row in of], [max(SMALLEST, abs(row[error])) for row in of], marker, color=colour,
-                  label=knob, alpha=0.8)
+def kind_of(row):
+    """The knob that a run stands for in the picture: that of the models is three."""
+    if row["knob"] != "models":
+        return row["knob"]
+    return next((kind for kind in ("homogeneous", "relocalised", "strip") if row["model"].startswith(kind)), None)
+
+
+def words_of(error):
+    """Of an axis."""
+    name = error.removesuffix("_off")
+    return "spectrum: distance [%]" if name == "spectrum" else f"{ERRORS.get(name, name)}: error [%]"
+
+
+def sizes(rows, error):
+    return [max(SMALLEST, PERCENT * abs(row[error])) for row in rows]
+
+
+def panel(axes, rows, cost, error):
+    rows = [{**row, cost: FACTORS.get(cost, 1) * row[cost]} for row in rows if row.get(error) is not None]
+    for kind, (label, colour, marker) in KNOBS.items():
+        if of := [row for row in rows if kind_of(row) == kind]:
+            axes.plot([row[cost] for row in of], sizes(of, error), marker, color=colour, markersize=6, label=label,
+                      markeredgecolor="white" if marker not in "x" else colour, markeredgewidth=0.4)
     best = front(rows, cost, error)
-    axes.plot([row[cost] for row in best], [max(SMALLEST, abs(row[error])) for row in best], "-", color=BLACK,
-              linewidth=1, label="none better")
-    bars = sorted(row[error.replace("_off", "_bar")] for row in rows if row[error] is not None)
+    axes.plot([row[cost] for row in best], sizes(best, error), "-", color=BLACK, linewidth=1, zorder=1,
+              label="none is better and cheaper")
+    bars = sorted(row[error.replace("_off", "_bar")] for row in rows)
     if bars:
-        axes.axhline(bars[len(bars) // 2], color=BLACK, linestyle=":", linewidth=1, label="scatter over time")
-    axes.set(xscale="log", yscale="log", title=case, xlabel=cost, ylabel=error)
+        axes.axhline(max(SMALLEST, PERCENT * bars[len(bars) // 2]), color=BLACK, linestyle=":", linewidth=1,
+                     label="scatter over time (median)")
+    axes.set(xscale="log", yscale="log")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(True, which="major", alpha=0.3)
     few_ticks(axes.xaxis)
 
 
 def draw(rows, cost, errors):
-    rows = [row for row in rows if row["status"] == "ok" and row["knob"] in KNOBS]
+    rows = [row for row in rows if row["status"] == "ok" and (row["knob"] in KNOBS or row["knob"] == "models")]
     for name in (cost, *errors):
         if not any(row.get(name) is not None for row in rows):
             raise Mistake(f"The table has no column {name} with a number in it.")
     cases = list(dict.fromkeys(row["case"] for row in rows))
-    figure, axes = plt.subplots(len(errors), len(cases), figsize=(4.3 * len(cases), 3.6 * len(errors)), squeeze=False,
+    height = 3.1 * len(errors) + LEGEND
+    figure, axes = plt.subplots(len(errors), len(cases), figsize=(3.7 * len(cases), height), squeeze=False,
                                 layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - LEGEND / height))
     for line, error in zip(axes, errors):
         for one, case in zip(line, cases):
-            panel(one, [row for row in rows if row["case"] == case], cost, error, case)
-    axes[0, 0].legend(fontsize=7, ncols=2)
+            panel(one, [row for row in rows if row["case"] == case], cost, error)
+        line[0].set_ylabel(words_of(error))
+    for one, case in zip(axes[0], cases):
+        one.set_title(case)
+    for one in axes[-1]:
+        one.set_xlabel(COSTS.get(cost, cost))
+    named = {label: handle for one in axes.flat for handle, label in zip(*one.get_legend_handles_labels())}
+    order = [*(label for label, *_ in KNOBS.values() if label in named),
+             *(label for label in named if label not in [words for words, *_ in KNOBS.values()])]
+    figure.legend([named[label] for label in order], order, loc="upper center", ncols=min(5, 1 + len(cases)), fontsize=9,
+                  frameon=False)
     return figure
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from slipscale.reports.publish import failures, folded, publish
 from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
+from tradeoff.ends import ENDS, ends_of
 
 ERRORS = ("friction", "frequency", "amplitude", "stick", "open", "velocity", "displacement", "stress_matrix",
           "stress_inclusion")
@@ -57,6 +58,15 @@ def extremes_table(rows):
                      "seeds apart [%]", "spectrum", "times cheaper", "worth it"], lines)
 
 
+def ends_table(rows):
+    lines = [[end["case"], end["knob"], end["from"], end["to"],
+              f"{end['most']} {100 * end['change']:+.2g} ± {100 * end['scatter']:.1g}",
+              "-" if end["frequency"] is None else f"{100 * end['frequency']:+.2g}", f"{100 * end['bulk']:+.2g}",
+              end["beyond"] or "none", f"{end['seconds']:.2f}"] for end in ends_of(rows)]
+    return markdown(["case", "knob", "from", "to", "changes most [%]", "frequency [%]", "bulk [%]",
+                     "more than two scatters [%]", "seconds"], lines)
+
+
 def text_of(rows):
     ok = [row for row in rows if row["status"] == "ok"]
     knobs = [row for row in ok if row["knob"] in TURNED]
@@ -68,6 +78,10 @@ def text_of(rows):
     if extremes := [row for row in ok if row["knob"] not in TURNED]:
         text += ("Where the homogenised block is no longer worth it: off by more than other seeds are apart, or 2 %.\n\n" +
                  extremes_table(extremes))
+    if any(row["knob"] in ENDS for row in knobs):
+        text += ("\nWhat step, storage and the moduli of the homogenised block change on one mesh: of the contact's quantities that "
+                 "which changes most, those that change by more than twice their scatter over time, of the bulk's the "
+                 "most; seconds over those of `from`.\n\n" + ends_table(knobs))
     if failed := list(failures(rows, OPTIONS)):
         text += "\n" + folded("Runs that failed", "".join(f"- {line}\n" for line in failed))
     return text

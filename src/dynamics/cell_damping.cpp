@@ -45,11 +45,13 @@ CellDamping::CellDamping(MPI_Comm comm, const Model& model, const Damping& dampi
       past_predictor_(comm, model.mesh.nodes, false),
       mass_work_(comm, model.mesh.nodes, true) {
   const Mesh& mesh = model.mesh;
-  std::map<std::tuple<int, int, std::array<Vector2, 4>>, int> known;
+  std::map<std::tuple<int, int, int, std::array<Vector2, 4>>, int> known;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     if (!mesh.cells.owned[cell]) continue;
+    const int region = mesh.cells.region[cell],
+              own = model.materials[region].grading ? cell : -1;  // each cell is a material of its own
     const auto [found, is_new] =
-        known.try_emplace({mesh.cells.region[cell], mesh.cells.corner_count(cell), mesh.shape_of(cell)}, 0);
+        known.try_emplace({region, own, mesh.cells.corner_count(cell), mesh.shape_of(cell)}, 0);
     if (is_new) found->second = add_stiffness(cell);
     cells_.push_back({cell, found->second});
   }
@@ -66,7 +68,7 @@ int CellDamping::add_stiffness(int cell) {
   const auto shape = mesh.shape_of(cell);
   const auto corners = static_cast<std::size_t>(mesh.cells.corner_count(cell));
   const auto k = element_stiffness(std::span(shape.data(), corners),
-                                   model_.materials[mesh.cells.region[cell]].stiffness);
+                                   model_.materials[mesh.cells.region[cell]].at(cell).stiffness);
   const int first = static_cast<int>(relative_.size());
   for (int i = 2; i < k.rows(); ++i)
     for (int j = 2; j < k.cols(); ++j) relative_.push_back(k(i, j));
@@ -109,7 +111,7 @@ void CellDamping::density(std::vector<double>& of_cells) {
     const int cell = cells_[c].local;
     const auto areas = corner_areas(cells.corners_of(cell));
     const auto nodes = cells.nodes_of(cell);
-    const double density = model_.materials[cells.region[cell]].density;
+    const double density = model_.materials[cells.region[cell]].at(cell).density;
     double work = work_[c];
     for (std::size_t k = 0; k < nodes.size(); ++k)
       work += mass_ * density * areas[k] * mass_work_.data()[nodes[k]][0];

@@ -1,10 +1,9 @@
 // The contact nodes of a body as they stand at the start.
-#include <algorithm>
 #include <cmath>
 
 #include "slipscale/base/print.hpp"
+#include "slipscale/dynamics/contact_places.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
-#include "slipscale/mesh/boundary_cells.hpp"
 
 namespace slipscale {
 namespace {
@@ -17,37 +16,13 @@ std::vector<double> tributary_lengths(const Mesh& mesh, const Boundary& boundary
   return length;
 }
 
-/// The regions of the edges that meet in each node of the boundary, by local node; places are left out. The
-/// lower region first, so that the mean does not depend on the order of edges.
-std::vector<ContactPlace> regions_of_nodes(const Mesh& mesh, const Boundary& boundary) {
-  struct Share {
-    int region;
-    double length;
-  };
-  std::vector<std::vector<Share>> shares(static_cast<std::size_t>(mesh.nodes.size()));
-  const auto cells = boundary_cells(mesh, boundary);
-  for (std::size_t e = 0; e < cells.size(); ++e)
-    for (const int end : boundary.edges[e].nodes)
-      shares[end].push_back({mesh.cells.region[cells[e]],
-                             std::hypot(boundary.edges[e].outward[0], boundary.edges[e].outward[1])});
-  std::vector<ContactPlace> places(shares.size());
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    auto& own = shares[i];
-    if (own.empty()) continue;
-    std::ranges::sort(own, {}, &Share::region);
-    places[i].region = {own.front().region, own.back().region};
-    if (own.size() > 1) places[i].second = own.back().length / (own.front().length + own.back().length);
-  }
-  return places;
-}
-
 }  // namespace
 
 void SlidingBody::set_contact_nodes() {
   const Mesh& mesh = model_.mesh;
   const Boundary& boundary = *mesh.find_boundary(scene_.surface->boundary);
   const auto length = tributary_lengths(mesh, boundary);
-  const auto regions = regions_of_nodes(mesh, boundary);
+  const auto places = slipscale::contact_places(mesh, boundary);
   std::string fault, shared;
   for (int i : boundary.nodes) {
     const int slot = boundary_.slot_of(i);
@@ -67,8 +42,7 @@ void SlidingBody::set_contact_nodes() {
           height, apart_from(height, mesh.nodes.position[i][1] + u_.data()[i][1], 6),
           mesh.nodes.position[i][0]);
     contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
-    contact_places_.push_back(regions[i]);
-    contact_places_.back().place = place;
+    contact_places_.push_back(places[i]);
   }
   throw_together(comm_, shared);
   throw_together(comm_, fault);

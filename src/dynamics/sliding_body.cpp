@@ -21,7 +21,7 @@ std::vector<std::string> boundaries_in_use(const Scene& scene) {
 BulkPhysics bulk_physics(const Scene& scene) {
   const bool dissipates = scene.beta2 > 0.5;
   return {scene.damping.mass > 0, scene.damping.stiffness > 0, dissipates,
-          dissipates || scene.friction.by_slip_rate, scene.acceleration().of_place()};
+          dissipates || scene.friction.asks_slip_rate(), scene.acceleration().of_place()};
 }
 
 BulkPhysics keeping_acceleration(BulkPhysics physics) {

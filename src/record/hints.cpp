@@ -17,7 +17,7 @@ constexpr double far_below = 0.5;     ///< of the limit
 constexpr double least_edges = 2;     ///< that the memory has to span; one is marginal
 
 bool same(const Material& one, const Material& other) {
-  return one.stiffness == other.stiffness && one.density == other.density;
+  return !one.grading && !other.grading && one.stiffness == other.stiffness && one.density == other.density;
 }
 
 /// Two regions that could be one.
@@ -71,7 +71,7 @@ struct Memory {
 
 /// All zero without friction that remembers. Collective.
 Memory memory_of(const SlidingBody& body) {
-  if (!body.scene().surface || body.scene().friction.law != FrictionChoice::Law::regularized) return {};
+  if (!body.scene().surface || !body.scene().friction.remembers()) return {};
   const double time = shortest_memory(body.scene().friction, body.scene().surface->speed);
   if (!(time > 0) || !std::isfinite(time)) return {};
   double slowest = std::numeric_limits<double>::infinity();

@@ -75,15 +75,20 @@ const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice)
 std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& choice) {
   if (!choice.quantities.stress && !choice.quantities.von_mises) return {};
   std::vector<double> of_region;
-  for (std::size_t r = 0; r < model.materials.size(); ++r) {
-    of_region.push_back(transverse_ratio(model.materials[r]));
-    if (choice.quantities.von_mises && std::isnan(of_region.back()))
-      throw UserError(
-          "-fields_quantities has von_mises, but the stiffness of region '" + model.mesh.regions[r].name +
-          "' is not isotropic and does not tell the stress across the plane; leave von_mises out");
-  }
+  for (const Material& material : model.materials) of_region.push_back(transverse_ratio(material));
   std::vector<double> of_cell;
-  for (const int region : model.mesh.cells.region) of_cell.push_back(of_region[region]);
+  std::string fault;
+  for (int cell = 0; cell < model.mesh.cells.size(); ++cell) {
+    const int region = model.mesh.cells.region[cell];
+    const Solid solid = model.materials[region].at(cell);
+    const bool graded = model.materials[region].grading != nullptr;
+    of_cell.push_back(graded ? transverse_ratio({solid.stiffness, solid.density, ""}) : of_region[region]);
+    if (fault.empty() && choice.quantities.von_mises && std::isnan(of_cell.back()))
+      fault = "-fields_quantities has von_mises, but the stiffness of region '" +
+              model.mesh.regions[region].name +
+              "' is not isotropic and does not tell the stress across the plane; leave von_mises out";
+  }
+  throw_together(model.mesh.comm, fault);
   return of_cell;
 }
 
@@ -111,11 +116,14 @@ std::vector<std::string> files_of_a_run() {
           "interfaces.yaml", checkpoint_names[0], checkpoint_names[1], checkpoint_next};
 }
 
+Eigen::Matrix3d compliance(const Eigen::Matrix3d& stiffness) {
+  return stiffness.llt().solve(Eigen::Matrix3d::Identity());
+}
+
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
-  for (const Material& material : materials)
-    found.push_back(material.stiffness.llt().solve(Eigen::Matrix3d::Identity()));
+  for (const Material& material : materials) found.push_back(compliance(material.stiffness));
   return found;
 }
 
@@ -257,9 +265,15 @@ void Recorder::record_cells(long n) {
   if (strain || choice_.quantities.of_stress())
     cell_stress(model.mesh, model.materials, body_.displacement_n(), stress_);
   if (strain) strain_.resize(stress_.size());
-  for (int cell = 0; strain && cell < cells.size(); ++cell)
-    Eigen::Vector3d::Map(strain_[cell].data()) =
-        compliance_[cells.region[cell]] * Eigen::Vector3d::Map(stress_[cell].data());
+  for (int cell = 0; strain && cell < cells.size(); ++cell) {
+    const int region = cells.region[cell];
+    const auto stress = Eigen::Vector3d::Map(stress_[cell].data());
+    auto found = Eigen::Vector3d::Map(strain_[cell].data());
+    if (model.materials[region].grading)
+      found = compliance(model.materials[region].at(cell).stiffness) * stress;
+    else
+      found = compliance_[region] * stress;
+  }
   if ((frame && choice_.quantities.damping_work) || (sample && statistics_->damping()))
     body_.cell_damping(damping_);
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };

@@ -48,7 +48,7 @@ InterfaceForces::InterfaceForces(const Mesh& mesh, const std::vector<Material>& 
       first_.push_back(first_.back());
     }
     const auto corners = mesh.cells.corners_of(part.cell);
-    const Material& material = materials[region];
+    const Solid material = materials[region].at(part.cell);
     mass_.back() += material.density * corner_areas(corners)[part.corner];
     const auto shape = mesh.shape_of(part.cell);
     const auto k = element_stiffness(std::span(shape.data(), corners.size()), material.stiffness);

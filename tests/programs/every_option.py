@@ -32,6 +32,7 @@ LENGTH = {"friction_time": None, "friction_length": 1.2e-6}
 BY_SLIP_RATE = {**LENGTH, "friction_rate": "slip", "friction_rate_reference": 0.2}
 FRICTIONLESS = {"friction_law": "none", "friction_coefficient": None, "friction_time": None}
 COULOMB = {"friction_law": "coulomb", "friction_time": None}
+FALLING = {"friction_law": "exponential", "friction_kinetic": 0.5, "friction_slip_rate": 2}
 SINE = {"initial_sine_amplitude": 0.1, "initial_sine_wavelength": SIDE}
 PLATE = {"boundary_top_y": "rigid", "boundary_top_force": 1e4}
 LOADED = {"boundary_top_y": None, "boundary_top_pressure": 1e6}
@@ -156,6 +157,10 @@ def needs_memory(value):
             Idle({**FRICTIONLESS, "OPTION": value}, "with -friction_law none")]
 
 
+def needs_falling(value):
+    return needs_memory(value) + [Idle({"OPTION": value}, "with -friction_law regularized")]
+
+
 ALWAYS = []  # acts in every scene
 ALL_NAMED = "since every region has a material of its own"
 HELD = "where the motion along it is prescribed"
@@ -231,6 +236,12 @@ ROWS = {
     "initial_displacement": Row([Answer({"OPTION": "0,-1e-7", "surface_height": -1e-6}, first("energy/strain"), same),
                                  Answer({"OPTION": "1e-7*y/H,0"}, first("energy/strain"),
                                         becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    # Interpolated: test_initial_file.py. The table holds a shear, the run rises from rest.
+    "initial_file": Row([Answer({"OPTION": "sheared.csv"}, first("energy/strain"),
+                                becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    "initial_time": Row([Answer({"OPTION": 0}, first("energy/kinetic"), less, base={"initial_file": "rising"})],
+                        [Idle({"OPTION": 0}, "without -initial_file"),
+                         Idle({"initial_file": "sheared.csv", "OPTION": 0}, "with a table")]),
     "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),
     "initial_sine_amplitude": Row([Answer({"OPTION": 0.2}, M_X, becomes(-0.2), base=SINE)], ALWAYS),
     "initial_sine_wavelength": Row([Answer({"OPTION": 1.5 * SIDE}, M_X, becomes(0.1 * np.cos(2 * np.pi / 3)),
@@ -255,6 +266,13 @@ ROWS = {
     "friction_law": Row([Answer(COULOMB, DRAG, more), Answer(FRICTIONLESS, DRAG, becomes(0))], [needs_surface("none")]),
     "friction_coefficient": Row([Answer({"OPTION": 0.25}, DRAG, less)],
                                 [needs_surface(0.5), Idle({**FRICTIONLESS, "OPTION": 0.5}, "with -friction_law none")]),
+    # The faster the slip, the nearer to the kinetic coefficient.
+    "friction_kinetic": Row([Answer({"OPTION": 0.2}, DRAG, less, base=FALLING)], needs_falling(0.2)),
+    "friction_slip_rate": Row([Answer({"OPTION": 20}, DRAG, more, base={**FALLING, "friction_kinetic": 0.2})],
+                              needs_falling(2)),
+    "friction_<region>_kinetic": Row([Answer({"OPTION": 0.2}, DRAG, less, base=FALLING)], needs_falling(0.2)),
+    "friction_<region>_slip_rate": Row([Answer({"OPTION": 20}, DRAG, more, base={**FALLING, "friction_kinetic": 0.2})],
+                                       needs_falling(2)),
     "friction_length": Row([Answer({"OPTION": 1.2e-5}, DRAG, less, base=LENGTH)],
                            needs_memory(1e-6) +
                            [Idle({"OPTION": 1e-6}, "-friction_time contradicts -friction_length")]),

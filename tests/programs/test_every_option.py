@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 from every_option import COULOMB, DENSITY, FOUR_TIMES, FRICTIONLESS, ROWS, SCENE
 from running import SLIDE, InScratch, arguments_of, datasets, h5py, yaml_of
-from scenes import block
+from scenes import SIDE, block
 
 RANKS_OF_REFUSALS = 2
 AT_ONCE = 2  # starting and ending a parallel job is mostly waiting
@@ -51,6 +51,9 @@ class EveryOption(InScratch):
         block(self.folder / "ring.msh", periodic=True)
         block(self.folder / "two.msh", regions=("block", "fibre"))
         (self.folder / "four_times.yaml").write_text(f"stiffness: [{FOUR_TIMES}]\ndensity: {DENSITY}\n")
+        (self.folder / "sheared.csv").write_text("x,y,ux\n" + "".join(f"{x},{y},{1e-7 * y / SIDE}\n" for x in (0, SIDE) for y in (0, SIDE)))
+        body = {name: value for name, value in SCENE.items() if name.startswith(("mesh_", "material_"))}
+        self.run_scene({**body, "body_acceleration": "0,1e6", "time_end": 1e-7, "fields_every": 1, "output_folder": "rising"})
         self.runs = {}
 
     def result(self, scene, ranks):

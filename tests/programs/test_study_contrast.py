@@ -18,7 +18,8 @@ class Contrast(studies.StudyCase):
         self.assertEqual([row for row in runs if row["status"] != "ok"], [])
         for row in runs:
             self.assertLess(float(row["energy_residual"]), 1e-10)
-            self.assertLessEqual(float(row["friction"]), 0.5 + 1e-9)  # the coefficient
+            # The coefficient; T follows the pressure by .6 µs, and N is another at the end of the window of 60 µs.
+            self.assertLessEqual(float(row["friction"]), 0.5 * (1 + 0.6 / 60))
         for young in ("80", "300"):
             # Between the bounds of Reuss and Voigt of the longitudinal modulus, 1.2 E at ν = .25, fraction .3 ± .05.
             soft, stiff = 1.2 * 30e9, 1.2e9 * float(young)

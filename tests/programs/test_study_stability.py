@@ -18,8 +18,8 @@ class Stability(studies.StudyCase):
         self.assertEqual([(row["model"], row["status"]) for row in growth],
                          [("plain", "ok"), ("composite", "ok"), ("homogenised", "ok")])
         for row in growth:
-            self.assertLess(abs(float(row["growth_seen"]) / float(row["growth_scheme"]) - 1), 1e-4, row)
-            self.assertLess(abs(float(row["frequency_seen"]) / float(row["frequency_scheme"]) - 1), 1e-5, row)
+            self.assertLess(abs(float(row["growth_seen"]) / float(row["growth_scheme"]) - 1), 1e-8, row)
+            self.assertLess(abs(float(row["frequency_seen"]) / float(row["frequency_scheme"]) - 1), 1e-10, row)
             self.assertEqual(row["closed_seen"], row["closed"])
         swept = self.rows("map.csv")
         self.assertEqual(len(swept), 4)
@@ -28,7 +28,8 @@ class Stability(studies.StudyCase):
             self.assertEqual(row["growing"] == "0", row["coefficient"] == "0.1", row)
         judged = self.rows("equivalence.csv")
         self.assertEqual({row["status"] for row in judged}, {"ok"})
-        self.assertEqual({row["expected"] for row in judged if row["coefficient"] == "0.2"}, {"nothing grows"})
+        for row in judged:  # little friction: next to nothing grows, in one of the bodies at most
+            self.assertEqual(row["expected"] in ("nothing grows", "only one grows"), row["coefficient"] == "0.2", row)
         self.assertTrue(all(float(row["likeness"]) <= 1 for row in self.rows("pairs.csv") if row["likeness"]))
         for name in ("growth", "map"):
             self.assertGreater((self.out / "picture" / name / "picture.png").stat().st_size, 20000)

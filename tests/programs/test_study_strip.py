@@ -16,7 +16,9 @@ class Strip(studies.StudyCase):
         self.assertEqual(len(rows), 6)
         for row in rows:
             self.assertLess(float(row["energy_residual"]), 1e-10)
-            self.assertLessEqual(float(row["friction"]), 0.5 + 1e-9)  # the coefficient
+            # The coefficient; T follows the pressure by a relaxation time of .6 µs, and the window of 40 µs ends where N has
+            # another value than where it begins, though not twice its mean.
+            self.assertLessEqual(float(row["friction"]), 0.5 * (1 + 0.6 / 40))
         for row in self.rows(height="5"):  # the whole composite misses nothing of itself
             for name in ("friction_off", "frequency_off", "spectrum_distance", "mean_stress_distance"):
                 self.assertEqual(float(row[name]), 0, name)

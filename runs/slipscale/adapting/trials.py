@@ -14,7 +14,7 @@ from slipscale.reading.yaml_file import load
 from slipscale.running.attempt import attempt
 from slipscale.running.commands import words
 
-LEFT_OUT = ("run", "output_folder", "fields_", "statistics_", "progress", "contact_every")
+LEFT_OUT = ("run", "output_folder", "fields_", "statistics_", "progress", "contact_every", "contact_interval")
 SELDOM = 10**7  # steps between rows of contact.h5: none but the first
 OVERRULES = {"friction_time": ("friction_length",), "friction_length": ("friction_time",),
              "friction_rate": ("friction_time",)}

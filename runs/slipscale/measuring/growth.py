@@ -12,6 +12,7 @@ import numpy as np
 from slipscale.reading import OPEN, SLIP
 
 FEWEST = 24  # rows from which exponents can be told
+NODES = 12  # of the contact, whose motion is looked at
 
 
 @dataclass(frozen=True)
@@ -43,17 +44,19 @@ def exponents(signals, interval, noise=1e-6):
     rows = len(signals)
     if rows < FEWEST:
         raise ValueError(f"{rows} rows tell no exponents: {FEWEST} are the least")
-    width = rows // 3
+    # The wider, the more modes are told apart; several signals leave enough lines.
+    width = 2 * rows // 3 if signals.shape[1] > 1 else rows // 2
     hankel = np.concatenate([np.lib.stride_tricks.sliding_window_view(signal, width + 1) for signal in signals.T])
     _, strength, span = np.linalg.svd(hankel, full_matrices=False)
     span = span[strength > noise * strength[0]].T
     factor = np.linalg.eigvals(np.linalg.lstsq(span[:-1], span[1:], rcond=None)[0]).astype(complex)
     factor = factor[np.abs(factor) > 1e-6]
     factor = factor[np.abs(np.log(np.abs(factor))) * rows < 200]  # no number of the end or of the start else
-    # Amplitudes at the last row, so that what grows does not lose digits.
+    # Amplitudes at the last row, so that what grows does not lose digits; the least ones, so that exponents of rounding, some
+    # of them almost alike, do not cancel each other with large ones.
     powers = factor[None, :]**(np.arange(rows)[:, None] - (rows - 1))
     scale = np.linalg.norm(powers, axis=0)
-    amplitude = np.linalg.lstsq(powers / scale, signals.astype(complex), rcond=None)[0] / scale[:, None]
+    amplitude = np.linalg.lstsq(powers / scale, signals.astype(complex), rcond=1e-8)[0] / scale[:, None]
     size = np.abs(amplitude).max(axis=1)
     p = np.log(factor) / interval
     kept = p.imag >= 0
@@ -84,16 +87,24 @@ def even_until(time):
     return int(uneven[0]) + 1 if len(uneven) else len(time)
 
 
-def seen(contact, begin=0.0, most=300, noise=1e-6):
+def rounding(u, moved):
+    """What rounding makes of displacements `u`, relative to the motion `moved` that is told from them; with a margin."""
+    return 1e3 * np.finfo(float).eps * np.abs(u).max() / np.abs(moved).max()
+
+
+def seen(contact, begin=0.0, most=300, noise=None, fewest=FEWEST, margin=0):
     """(Exponents, rows) of the velocities along x of the contact nodes in the longest linear stretch of `contact`
-    (slipscale.Run.contact) after `begin` s, of its last `most` rows; None where there is none."""
+    (slipscale.Run.contact) after `begin` s, of its last `most` rows; None where there is none of `fewest` rows or more; its last `margin`
+    rows are left out: before a node is seen to open it may have opened for less than the time between two rows. `noise` as in
+    `exponents`; None where nothing but rounding disturbs the motion, which the stretch is chosen for."""
     first, last = int(np.searchsorted(contact.time, begin)), even_until(contact.time)
-    stretch = linear_stretch(contact.status[first:last])
+    stretch = linear_stretch(contact.status[first:last], fewest)
     if stretch is None:
         return None
-    rows = slice(first + max(stretch.start, stretch.stop - most), first + stretch.stop)
+    stop = stretch.stop - margin
+    rows = slice(first + max(stretch.start, stop - most), first + stop)
     closed = np.flatnonzero(contact.status[rows.start] == SLIP)
-    chosen = closed[np.linspace(0, len(closed) - 1, min(6, len(closed))).astype(int)] if len(closed) else []
+    chosen = closed[np.linspace(0, len(closed) - 1, min(NODES, len(closed))).astype(int)] if len(closed) else []
     if not len(chosen):
         return None
     # Differences of successive rows: the state about which it vibrates drops out, growth and frequency stay.
@@ -101,6 +112,8 @@ def seen(contact, begin=0.0, most=300, noise=1e-6):
     if len(moved) < FEWEST or not np.abs(moved).max() > 0:
         return None
     interval = (contact.time[rows][-1] - contact.time[rows][0]) / (rows.stop - rows.start - 1)
+    if noise is None:
+        noise = max(1e-11, rounding(contact.u[rows, :, 0][:, chosen], moved))
     return exponents(moved, interval, noise), rows
 
 

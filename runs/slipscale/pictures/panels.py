@@ -33,6 +33,8 @@ ENERGY_TERMS = {  # term: (what the legend calls it, colour, line style)
     "kinetic": ("kinetic energy", ORANGE, "-"),
 }
 NO_LINE = ("residual", "flowed")
+FAR = 20  # times the fastest motion: the surface's speed beyond it would leave nothing to be seen of the portrait
+ROUNDING = 1e-10  # relative: what varies less does not vary
 
 
 def phase_portrait(axes, figure, history, point, window, surface_speed):
@@ -44,8 +46,9 @@ def phase_portrait(axes, figure, history, point, window, surface_speed):
     lines.set_array(history.time[rows][:-1] * MICRO)
     axes.add_collection(lines)
     axes.autoscale()
+    widen(axes.get_xlim, axes.set_xlim, 1e-4)
     figure.colorbar(lines, ax=axes, label="time [µs]", pad=0.02)
-    if surface_speed is not None:
+    if surface_speed is not None and abs(surface_speed) < FAR * np.abs(v).max():
         axes.axhline(surface_speed, color=VERMILION, linestyle="--", linewidth=1.2)
         axes.annotate("speed of the surface: stick", (0.98, surface_speed), (0, 4), color=VERMILION, ha="right",
                       xycoords=("axes fraction", "data"), textcoords="offset points")
@@ -80,6 +83,7 @@ def friction(axes, history, boundary, window, coefficient):
         reach = [*np.percentile(seen, [0.5, 99.5]), mean, mean if coefficient is None else coefficient]
         margin = 0.25 * (max(reach) - min(reach)) + 1e-6
         axes.set_ylim(min(reach) - margin, max(reach) + margin)
+        widen(axes.get_ylim, axes.set_ylim)
     axes.set_xlim(history.time[0] * MICRO, history.time[-1] * MICRO)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False, fontsize="small")
     axes.grid(alpha=0.25)
@@ -106,7 +110,7 @@ def friction_spectrum(axes, history, boundary, window, highest=2e6):
     """
     rows = rows_in(history.time, window)
     values, name = friction_signal(history, boundary, rows)
-    if not np.ptp(values) > 0:
+    if not np.ptp(values) > ROUNDING * np.abs(values).max():
         say(axes, "(c) Spectrum of the friction", f"{name} does not vary in the window.")
         return None
     values, rate = spectrum.evenly_spaced(history.time[rows], values)
@@ -200,8 +204,16 @@ def relative_residual(history):
     return np.max(np.abs(residual[flowed > 0]) / flowed[flowed > 0])
 
 
+def widen(limits, set_limits, least=0.05):
+    """Makes the limits of an axis span at least a part `least` of their size, so that ticks tell values apart."""
+    low, high = limits()
+    middle, span = 0.5 * (low + high), least * max(abs(low), abs(high))
+    if high - low < span:
+        set_limits(middle - 0.5 * span, middle + 0.5 * span)
+
+
 def say(axes, title, sentence):
     """A panel that has nothing to draw says why."""
     axes.set_title(title)
-    axes.text(0.5, 0.5, sentence, transform=axes.transAxes, ha="center", va="center", wrap=True, color="0.35")
+    axes.text(0.5, 0.5, textwrap.fill(sentence, 36), transform=axes.transAxes, ha="center", va="center", color="0.35")
     axes.set(xticks=[], yticks=[])

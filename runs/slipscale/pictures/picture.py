@@ -18,6 +18,7 @@ from slipscale.pictures.drawing import plt, shown, write_picture
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
 
 PERIODS_IN_MAP = 12
+LONGEST = 140  # characters of a line above the panels
 
 
 def draw(folder, window=None, point=0):
@@ -53,7 +54,7 @@ def draw(folder, window=None, point=0):
 
 
 def headline(folder, history, summary, boundary, window, dominant):
-    """Up to three lines: the folder and how far the run got; the numbers a reader compares."""
+    """A few lines: the folder and how far the run got; the numbers a reader compares."""
     rows = rows_in(history.time, window)
     planned, reached = summary.number("time_end"), history.time[-1]
     state = f"{reached * MICRO:.4g} µs"
@@ -73,10 +74,19 @@ def headline(folder, history, summary, boundary, window, dominant):
     residual = panels.relative_residual(history)
     if residual is not None:
         numbers.append(f"energy residual {residual:.0e}")
-    lines = [f"{shown(folder)}: {state}", *("   |   ".join(numbers[k:k + 4]) for k in (0, 4) if numbers[k:])]
-    if doubt := summary.headline.get("aliases"):
-        lines += textwrap.wrap(str(doubt), 150)[:2]
+    lines = [f"{shown(folder)}: {state}", *joined(numbers)]
+    if dominant is not None and (doubt := summary.headline.get("aliases")):
+        lines += textwrap.wrap(str(doubt), LONGEST)[:2]
     return "\n".join(lines)
+
+
+def joined(parts):
+    """Parts in as few lines as they fit into, none of them broken."""
+    lines = []
+    for part in parts:
+        longer = f"{lines[-1]}   |   {part}" if lines else part
+        lines[-1:] = [longer] if len(longer) <= LONGEST or not lines else [lines[-1], part]
+    return lines
 
 
 def main(arguments=None):

@@ -1,6 +1,7 @@
 """Error over cost: what the pilots gave, what any price buys, what is proposed, the wish and the budget."""
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from slipscale.pictures.drawing import plt
@@ -8,6 +9,7 @@ from slipscale.pictures.drawing import plt
 COLOURS = {"grid": BLUE, "triangle": ORANGE, "quadrilateral": GREEN}
 MARKERS = {"grid": "s", "triangle": "^", "quadrilateral": "D"}
 LEAST = 1e-5  # relative: what lies below is drawn there
+LEGEND = 0.7  # inches above the panels
 
 
 def deviations(planning, name):
@@ -36,13 +38,14 @@ def panel(axes, planning, proposal, wish):
     mean, deviation = result.fit.expected(best.h, best.step, best.number)
     axes.plot(proposal.seconds, 100 * best.bounds[wish.name], "*", color=VERMILION, markersize=15, label="proposed: bound")
     axes.plot(proposal.seconds, max(100 * LEAST, 100 * abs(mean)), "_", color=VERMILION, markersize=14,
-              label=f"its mesh and step ({100 * mean:+.2g} ± {100 * deviation:.2g} %)")
+              label="its mesh and step alone")
     axes.axhline(100 * wish.allowed(result.size), color=BLACK, linestyle="--", linewidth=1, label="wished for")
     if planning.budget:
         axes.axvline(planning.budget, color=BLACK, linestyle=":", linewidth=1, label="budget")
-    axes.set(xscale="log", yscale="log", xlabel="seconds of one core", ylabel="error [%]", title=wish.name)
+    axes.set(xscale="log", yscale="log", xlabel="seconds of one core", ylabel="error [%]",
+             title=f"{wish.name.replace('_', ' ')}\nits mesh and step: {100 * mean:+.2g} ± {100 * deviation:.2g} %")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(True, which="major", alpha=0.3)
-    axes.legend(fontsize=8)
 
 
 def draw(planning, proposal, path):
@@ -50,11 +53,15 @@ def draw(planning, proposal, path):
     wishes = planning.wishes
     rows = -(-len(wishes) // 3)
     count = min(3, len(wishes))
-    figure, axes = plt.subplots(rows, count, figsize=(6.2 * count, 4.8 * rows), squeeze=False, layout="constrained")
+    height = 4.8 * rows + LEGEND
+    figure, axes = plt.subplots(rows, count, figsize=(6.2 * count, height), squeeze=False, layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - LEGEND / height))
     for wish, one in zip(wishes, axes.ravel()):
         panel(one, planning, proposal, wish)
     for one in axes.ravel()[len(wishes):]:
         one.set_axis_off()
+    named = {label: handle for one in axes.flat for handle, label in zip(*one.get_legend_handles_labels())}
+    figure.legend(named.values(), named.keys(), loc="upper center", ncols=min(len(named), 3 * count), frameon=False)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 

@@ -36,10 +36,11 @@ def averages(folder, window, names, point=0):
     return found
 
 
-def stress(folder, window, region):
+def stress(folder, window, region, *file):
     """Pair of value and standard error, Pa: what PART_OF_CELLS of the region's von Mises stress lies below, over its
-    area and the frames of fields.h5 in `window`. Raises Mistake where there is no such region."""
-    with Fields(folder) as fields:
+    area and the frames of fields.h5 in `window`, or of another `file` (name and program, as of Fields). Raises Mistake
+    where there is no such region."""
+    with Fields(folder, *file) as fields:
         if region not in fields.region_names:
             raise Mistake(f"there is no region {region}, whose stress is wished for: the mesh has "
                           f"{', '.join(fields.region_names)}")

@@ -54,9 +54,10 @@ class Growth(unittest.TestCase):
         status = np.full((rows, 4), SLIP)
         status[:, 3] = OPEN
         contact = SimpleNamespace(time=INTERVAL * np.arange(rows), status=status, u=u)
-        found, used = seen(contact, begin=50 * INTERVAL, noise=1e-9)
-        self.assertEqual(used, slice(50, 200))
-        self.assertLess(abs(found.p[0] - MODES[0]) / abs(MODES[0]), 1e-8)
+        for noise in (1e-9, None):  # None: what rounding about the state that is not zero leaves
+            found, used = seen(contact, begin=50 * INTERVAL, noise=noise)
+            self.assertEqual(used, slice(50, 200))
+            self.assertLess(abs(found.p[0] - MODES[0]) / abs(MODES[0]), 1e-8)
         contact.time = np.append(contact.time[:-1], contact.time[-2] + 0.3 * INTERVAL)  # as at the end of a run
         found, used = seen(contact, begin=50 * INTERVAL, noise=1e-9)
         self.assertEqual(used, slice(50, 199))
@@ -64,7 +65,15 @@ class Growth(unittest.TestCase):
         status[:, 0] = STICK
         self.assertIsNone(seen(contact))
 
-
+    def test_what_hardly_moves_about_a_large_displacement(self):
+        """Rounding of the displacement, 1e7 times the motion, is not taken for modes."""
+        rows = 400
+        u = np.zeros((rows, 3, 2))
+        u[:, :, 0] = 1e7 + signals(rows)
+        contact = SimpleNamespace(time=INTERVAL * np.arange(rows), status=np.full((rows, 3), SLIP), u=u)
+        found, _ = seen(contact, most=400)
+        self.assertLess(abs(found.p[0] - MODES[0]) / abs(MODES[0]), 1e-5)
+        self.assertLess(len(found.p), 8)
 
 
 if __name__ == "__main__":
