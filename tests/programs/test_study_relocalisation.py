@@ -22,6 +22,9 @@ class Relocalisation(studies.StudyCase):
         for case in ("stable", "transient"):
             error = self.one("error", "bulk", case=case)
             self.assertLess(error["relocalised"], 0.1 * error["homogeneous"], case)
+            for component in ("normal", "shear"):
+                error = self.one("interface_error", "all", component, case=case)
+                self.assertLess(error["relocalised"], 0.6 * error["homogeneous"], (case, component))
         # The tensors of a block know nothing of a contact. The correction ends half a strip above it, below the bulk.
         before, after = (self.one("error", "layer", "xx", strip=strip)["relocalised"] for strip in ("0", "0.001"))
         self.assertLess(after, 0.6 * before)
