@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config git clang-format
-  petsc-dev libpetsc-real-dev libslepc-real-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libmetis-dev libfftw3-dev libyaml-dev libeigen3-dev libfmt-dev libmuparser-dev
+  petsc-dev libpetsc-real-dev libslepc-real-dev libopenblas0-serial libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libmetis-dev libfftw3-dev libyaml-dev libeigen3-dev libfmt-dev libmuparser-dev
   gmsh libgmsh-dev libpng-dev
   libgtest-dev
   python3 python3-numpy python3-h5py python3-matplotlib python3-yaml python3-markdown python3-meshio snakemake

@@ -24,8 +24,9 @@ namespace {
 void tell_of_idle(const Options& options, const Mesh& mesh, bool scheme) {
   std::vector<std::string> names = names_in(record_schema());
   std::erase(names, "output_folder");
-  for (const char* name : {"initial_velocity", "initial_rotation", "initial_sine_amplitude",
-                           "initial_sine_wavelength", "history_boundary", "surface_speed_ramp"})
+  for (const char* name :
+       {"initial_velocity", "initial_rotation", "initial_sine_amplitude", "initial_sine_wavelength",
+        "initial_file", "initial_time", "history_boundary", "surface_speed_ramp"})
     names.push_back(name);
   for (const std::string& boundary : mesh.boundary_names()) names.push_back("boundary_" + boundary + "_ramp");
   if (!scheme)
@@ -78,7 +79,7 @@ void modes(Options& options) {
   refuse_unwritable(comm, choice.folder);
   const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
   know_names(options, mesh);
-  const auto materials = read_materials(options, mesh.region_names());
+  const auto materials = read_materials(options, mesh);
   const Scene scene = read_sliding_scene(options, mesh);
   read_sweeps(options, scene, choice);
   const Model::Storage storage = read_storage(options);

@@ -8,6 +8,7 @@
 #include "slipscale/files/progress.hpp"
 #include "slipscale/relocalize/comparison_report.hpp"
 #include "slipscale/relocalize/local_histories.hpp"
+#include "slipscale/relocalize/local_interfaces.hpp"
 #include "slipscale/relocalize/local_stress.hpp"
 #include "slipscale/relocalize/relocalisation_report.hpp"
 #include "slipscale/relocalize/relocalisation_sources.hpp"
@@ -32,18 +33,22 @@ void relocalize(Options& options) {
   if (choice.strip) refuse_strip_off_contact(run, targets);
   LocalStress local(comm, sources.tensors, run.grid(), choice.recovery, targets, mine, choice.strip);
   LocalHistories histories(comm, targets, mine, choice.points);
+  std::optional<LocalInterfaces> interfaces;
+  if (choice.interfaces) interfaces.emplace(comm, targets, mine, *choice.interfaces);
   std::optional<StressComparison> comparison;
   if (sources.reference)
     comparison.emplace(comm, *sources.reference, targets, mine, run.times(), *choice.reference);
   options.refuse_unknown();
-  print(describe(run, sources.tensors, targets, local));
+  print(describe(run, sources.tensors, targets, local) + (interfaces ? interfaces->describe() : ""));
   const std::vector<std::string> notes = misfits(comm, sources);
   print_notes(notes);
 
-  const OutputFolder folder(comm, choice.folder,
-                            {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5",
-                             "relocalized_statistics.xdmf", "comparison.yaml"});
+  const OutputFolder folder(
+      comm, choice.folder,
+      {"relocalized.h5", "relocalized.xdmf", "relocalized_statistics.h5", "relocalized_statistics.xdmf",
+       "comparison.yaml", "interfaces.h5", "interfaces.xdmf", "interfaces.yaml"});
   RelocalisedFile file(comm, targets.grid, mine, folder.path(), notes);
+  if (interfaces) interfaces->open(folder.path(), run.times().size());
   std::vector<PlaneTensor> macro_strain(static_cast<std::size_t>(run.grid().cells()));
   Progress progress(choice.progress, 0, static_cast<double>(run.times().size()));
   for (std::size_t frame = 0; frame < run.times().size(); ++frame) {
@@ -51,6 +56,7 @@ void relocalize(Options& options) {
     run.read(frame, "strain", macro_strain);
     local.update(macro_strain);
     file.write(time, local.stress(), local.strain(), local.homogeneous_stress());
+    if (interfaces) interfaces->add(time, local);
     const auto* expected = comparison ? comparison->reference_stress(frame) : nullptr;
     if (expected) comparison->add_frame(local);
     histories.add(time, local, expected);
@@ -58,6 +64,7 @@ void relocalize(Options& options) {
   }
   progress.finish();
   file.close(histories.all());
+  if (interfaces) print("\n" + interfaces->close(folder) + "\n");
 
   if (sources.statistics)
     write_relocalised_statistics(comm, *sources.statistics, *sources.mean_strain, targets.grid, mine, local,

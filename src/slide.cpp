@@ -11,6 +11,7 @@
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/record/checkpoints.hpp"
 #include "slipscale/record/hints.hpp"
+#include "slipscale/record/initial_file.hpp"
 #include "slipscale/record/recorder.hpp"
 #include "slipscale/solid/material.hpp"
 
@@ -29,6 +30,8 @@ const std::vector<std::string> may_change{"restart",
                                           "history_interval",
                                           "contact_every",
                                           "contact_interval",
+                                          "interfaces_every",
+                                          "interfaces_interval",
                                           "fields_every",
                                           "fields_interval",
                                           "fields_times",
@@ -39,7 +42,8 @@ const std::vector<std::string> may_change{"restart",
                                           "stiffness_kernel",
                                           "stiffness_instructions"};
 
-void print_scene(const Scene& scene) {
+void print_scene(const Scene& scene, const InitialFile& initial) {
+  if (!initial.description.empty()) print("initial state: " + initial.description + "\n");
   for (const BoundaryCondition& condition : scene.conditions)
     print("boundary " + condition.boundary + ": " + describe(condition) + "\n");
   if (scene.surface) print(describe(*scene.surface) + "; friction: " + describe(scene.friction) + "\n");
@@ -79,19 +83,20 @@ void slide(Options& options) {
 
   const Mesh mesh = read_mesh(comm, periodic_mesh_source(options));
   know_names(options, mesh);
-  const auto materials = read_materials(options, mesh.region_names());
-  const Scene scene = read_scene(options, mesh);
+  const auto materials = read_materials(options, mesh);
+  Scene scene = read_scene(options, mesh);
   const RecordChoice record = read_record(options);
   const TimeChoice time = read_time(options);
   const Model::Storage storage = read_storage(options);
   const StiffnessKernel kernel = read_kernel(options);
   end_reading(options);
   const auto restart = find_restart(comm, record.restart);
-  if (restart) restart->check(mesh, materials);
+  const InitialFile initial = read_initial_file(mesh, record.folder, scene.initial);
+  if (restart) restart->check(mesh, materials, initial.checksum);
   const Model model(mesh, materials, storage, kernel);
   print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
-  print_scene(scene);
+  print_scene(scene, initial);
 
   const TimeStep step = restart ? restart->time_step(time.end) : choose_step(comm, model, scene, time);
   print(describe(step, model) + describe_kernel(comm, model));
@@ -100,6 +105,8 @@ void slide(Options& options) {
   if (restart && is_finished(*restart, step)) return;
 
   SlidingBody body(comm, model, scene, step.step);
+  if (record.contact_sums) body.keep_contact_sums();
+  if (record.cell_damping()) body.keep_cell_damping();
   if (restart) {
     restart->read(body.state());
     body.resume();
@@ -110,7 +117,8 @@ void slide(Options& options) {
   stop_if_asked(comm, request);
   Recorder recorder(body, record, step, restart.get());
   recorder.write_run(options);
-  Checkpoints checkpoints(body, recorder, request, scene_marks(options, mesh, materials, recorder.run()),
+  Checkpoints checkpoints(body, recorder, request,
+                          scene_marks(options, mesh, materials, recorder.run(), initial.checksum),
                           record.checkpoint);
   print(recorder.forecast() + checkpoints.forecast());
   set_up.reset();
@@ -118,6 +126,7 @@ void slide(Options& options) {
   const LogStage steps("Steps");
   for (long n = body.steps_done(); n <= step.count; ++n) {
     body.advance(recorder.observes(n));
+    if (n == 0) print_notes(remarks_on_first_step(body));
     recorder.after_step(n);
     checkpoints.after_step(n);
   }

@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from relocalisation.comparison import compare_phases, read_comparison
+from relocalisation.comparison import row as compared_row
+from relocalisation.interfaces import compare_interfaces
 from slipscale.reading import Statistics, Summary
 from slipscale.reading.mesh import centroids_and_areas
 from slipscale.reading.yaml_file import load
@@ -50,7 +52,9 @@ def rows_of(run, before):
     if row["tensors"] == "periodic":
         compared = compare_phases(run.parent, Path(before["heterogeneous"]).parent)
     else:
-        compared = read_comparison(run.parent)
+        depths = {name: float(job.params.compare[name]) for name in ("layer", "bulk")}
+        compared = [*read_comparison(run.parent),
+                    *compare_interfaces(run.parent, Path(before["heterogeneous"]).parent, **depths, row=compared_row)]
     return [{**row, **found} for found in compared]
 
 

@@ -161,6 +161,43 @@ def time_lines(study):
                    f"{in_digits(min(errors))} and {in_digits(max(errors))}.")
 
 
+def interface_table(study):
+    """Tractions along the interfaces, and what debonds; the first morphology, finest homogeneous mesh, all strips."""
+    lines = []
+    for best in map(study.best_known, study.cases):
+        for run in sorted(study.varied(best, "strip"), key=lambda run: run[5]):
+            if study.found(run, "all", "normal", "interface_error"):
+                lines.append([run[0], f"{1e3 * run[5]:g} mm" if run[5] else "none",
+                              *(study.change(run, part, component, "interface_error")
+                                for part in ("all", "layer", "bulk") for component in ("normal", "shear"))])
+    return markdown(["case", "strip", "normal, all", "shear, all", "normal, layer", "shear, layer", "normal, bulk",
+                     "shear, bulk"], lines)
+
+
+def debonding_table(study):
+    """Which inclusion is the first to have a debonding index of 1, where and when, by the three."""
+    lines = []
+    for best in map(study.best_known, study.cases):
+        for run in [*study.varied(best, "strip"), *(other for other in study.varied(best, "seed") if other != best)]:
+            if not study.found(run, "all", "index", "interface_index"):
+                continue
+            value = {name: study.found(run, "all", "index", name) or {} for name in (
+                "interface_index", "debonded", "first_inclusion", "first_time", "first_x", "first_y", "same_inclusion")}
+            for source in ("reference", "relocalised", "homogeneous"):
+                if value["first_inclusion"].get(source) is None:
+                    where = "none"
+                else:
+                    where = (f"{value['first_inclusion'][source]:.0f} at {1e3 * value['first_x'][source]:.2f}, "
+                             f"{1e3 * value['first_y'][source]:.2f} mm, {1e6 * value['first_time'][source]:.4g} µs")
+                same = value["same_inclusion"].get(source)
+                lines.append([run[0], run[1], f"{1e3 * run[5]:g} mm" if run[5] else "none",
+                              {"reference": "heterogeneous"}.get(source, source), where,
+                              f"{value['interface_index'][source]:.3g}", f"{value['debonded'][source]:.0f}",
+                              "-" if same is None else f"{same:.2f}"])
+    return markdown(["case", "seed", "strip", "stress", "first inclusion", "largest index", "inclusions that reach 1",
+                     "of those of the heterogeneous run"], lines)
+
+
 def run_table(study):
     runs = [run for run in study.runs if study.found(run, "all")]
     header = [*OPTIONS, *(f"σ_yy {part}" for part in PARTS), "σ_xx layer", "time mean", "standard deviation", "ratio"]
@@ -188,6 +225,13 @@ Local σ_yy over time at points (when sliding is stable it hardly changes, and c
 Equilibrium restored in a strip next to the contact, errors over single times:
 
 {correction_table(study)}
+Tractions along the interfaces of the inclusions, relative L2 errors over single times, homogeneous → relocalised
+(homogeneous: the homogeneous stress on the outline of the inclusion):
+
+{interface_table(study)}
+Debonding, (⟨σ_n⟩/σ_c)² + (τ/τ_c)² = 1 with the strengths of `study.yaml`, at the frames' times:
+
+{debonding_table(study)}
 Coarser homogeneous meshes (relocalised errors) and the price, in seconds that one core computed; the ratio is that of
 homogeneous run and `relocalize`, its comparison included, to the heterogeneous run:
 

@@ -6,6 +6,7 @@ Measuring   regime (what a run did in a window), spectrum (Welch), distance (of 
 Planning    plan (command): wishes, case, pilots (coarse runs), values, errors (order, constant, scatter), costs,
             proposal, refusals, answer
 Adapting    adapt (command), relaxation (formulas), search, trials
+Wearing     wear (command): constants by region, depth (Archard, energy), flash (temperature of a half-space)
 Running     attempt (a program whose failure is a result), commands (options as words), table (runs by name, rows),
             sweep, sweep_plan, sweep_command
 Reports     what is said about a table in Markdown; compare (runs side by side), pages of HTML (a run, a study)

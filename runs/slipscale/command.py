@@ -27,6 +27,7 @@ COMMANDS = {  # name: (module, what it does in one line)
     "table": ("slipscale.reports.table_command", "rows and columns of a study's table as text"),
     "maps": ("slipscale.pictures.maps", "columns of a study's table over the options that were varied"),
     "plan": ("slipscale.planning.plan", "which mesh, step and window keep the accuracy that is wished for, at which price"),
+    "wear": ("slipscale.wearing.wear", "wear depth by Archard's law and by energy, flash temperature, from a run's contact"),
     "adapt": ("slipscale.adapting.adapt", "the relaxation time with which a homogeneous model rubs as the composite"),
 }
 

@@ -1,7 +1,7 @@
 """One run of `slide` as Python sees it: `run = slipscale.Run("out/first")`. SI units throughout."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -34,7 +34,10 @@ class Contact:
 
     time [m] s; x [nc] m; u [m, nc, 2] m; slip_rate [m, nc] m/s; normal_traction [m, nc] Pa, >= 0 in compression;
     tangential_traction [m, nc] Pa; status [m, nc]: slipscale.OPEN, STICK or SLIP. y [nc] m, gap [m, nc] m, v_y [m, nc]
-    m/s and strength [m, nc] Pa, what the friction law remembers; None in files of earlier versions.
+    m/s and strength [m, nc] Pa, what the friction law remembers; tributary_length [nc] m; region_share {name: [nc]},
+    part of that length by region; None in files of earlier versions. sums {name: [m, nc]}: over every step since t = 0,
+    empty where the run kept none: friction_work and impact_loss J/m², slip_distance m, pressure_slip Pa m, time_closed
+    s, impulse Pa s, closures.
     """
 
     time: np.ndarray
@@ -48,11 +51,14 @@ class Contact:
     gap: np.ndarray | None = None
     v_y: np.ndarray | None = None
     strength: np.ndarray | None = None
+    tributary_length: np.ndarray | None = None
+    region_share: dict | None = None
+    sums: dict = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Fields on the mesh at one time; what was not saved is None.
+    """Fields on the mesh at one time; what was not saved is None. damping_work [nc] J/m³ is what bulk damping took.
 
     time s; coordinates [np, 2] m; triangles [nt, 3] point numbers, a quadrilateral gives two; cell_of_triangle [nt];
     region [nc] index into region_names; u [np, 2] m; v [np, 2] m/s; stress [nc, 3] Pa and strain [nc, 3]
@@ -75,6 +81,7 @@ class Frame:
     von_mises: np.ndarray | None = None
     principal_high: np.ndarray | None = None
     principal_low: np.ndarray | None = None
+    damping_work: np.ndarray | None = None
 
 
 class Run:
@@ -143,7 +150,10 @@ class Run:
         with ContactHistory(self.folder) as file:
             names = ("u", "slip_rate", "normal_traction", "tangential_traction", "status")
             later = [name for name in ("gap", "v_y", "strength") if file.holds(name)]
-            return Contact(file.time, file.x, **{name: file.read(name) for name in (*names, *later)}, y=file.y)
+            shares = None if file.region_share is None else dict(zip(file.region_names, file.region_share.T, strict=True))
+            return Contact(file.time, file.x, **{name: file.read(name) for name in (*names, *later)}, y=file.y,
+                           tributary_length=file.tributary_length, region_share=shares,
+                           sums={name.removeprefix("sums/"): file.read(name) for name in file.sums})
 
     @property
     def summary(self):
@@ -169,7 +179,7 @@ class Run:
             k = file.nearest(time)
             read = {name: file.read(name, k) if file.holds(name, k) else None
                     for name in ("u", "v", "stress", "strain", "stress_zz", "von_mises", "principal_high",
-                                 "principal_low")}
+                                 "principal_low", "damping_work")}
             for name in ("u", "v"):
                 read[name] = None if read[name] is None else read[name][:, :2]
             return Frame(float(file.time[k]), file.coordinates, file.triangles, file.cell_of_triangle, file.region,

@@ -52,6 +52,7 @@ class Command(unittest.TestCase):
                                 (("table", "/nowhere"), "there is no /nowhere"),
                                 (("maps", "/nowhere", "a.png"), "/nowhere"),
                                 (("scene", "/nowhere", "a.png"), "/nowhere cannot be read"),
+                                (("wear", "/nowhere", "a", "--energy", "1"), "There is no contact.h5"),
                                 (("cell-picture", "/nowhere", "a.png"), "There is no localization.h5"),
                                 (("adapt", "/nowhere", "/nowhere", "--output", "o", "--program", "nothing"),
                                  "there is no program nothing")):

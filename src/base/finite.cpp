@@ -7,9 +7,23 @@
 
 namespace slipscale {
 
-void stop_unless_finite(MPI_Comm comm, std::span<const double> values, const std::string& what) {
+namespace {
+
+std::string fault_of(std::span<const double> values, const std::string& what) {
   const bool fine = std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-  stop_together(comm, fine ? "" : what + " is not finite everywhere, so it is not written");
+  return fine ? "" : what + " is not finite everywhere, so it is not written";
+}
+
+}  // namespace
+
+void stop_unless_finite(MPI_Comm comm, std::span<const double> values, const std::string& what) {
+  stop_together(comm, fault_of(values, what));
+}
+
+void refuse_unless_finite(MPI_Comm comm, std::span<const double> values, const std::string& what,
+                          const std::string& cure) {
+  const std::string fault = fault_of(values, what);
+  throw_together(comm, fault.empty() ? "" : fault + "; " + cure);
 }
 
 }  // namespace slipscale

@@ -8,34 +8,53 @@
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
+#include "slipscale/contact/law_at_node.hpp"
 
 namespace slipscale {
 namespace {
 
-std::string mu_text(const Quantity& coefficient) {
-  return coefficient.formula ? "mu " + coefficient.formula->text() : format("mu {:g}", coefficient.number);
+std::string text_of(const Quantity& number) {
+  return number.formula ? number.formula->text() : format("{:g}", number.number);
+}
+
+std::string mu_text(const FrictionChoice& choice, const FrictionConstants& constants) {
+  const std::string text = "mu " + text_of(constants.coefficient);
+  if (choice.law != FrictionChoice::Law::exponential) return text;
+  return text + " falling to " + text_of(constants.kinetic) + format(" over {:g} m/s", constants.slip_rate);
 }
 
 std::string constants_text(const FrictionChoice& choice, const FrictionConstants& constants) {
-  std::string text = mu_text(constants.coefficient);
-  if (choice.law != FrictionChoice::Law::regularized) return text;
+  const std::string text = mu_text(choice, constants);
+  if (!choice.remembers()) return text;
   return text + (choice.by_slip_rate ? format(", L {:g} m", constants.length)
                                      : ", T " + engineering(constants.time, "s"));
 }
 
+/// What may differ from region to region.
+const std::vector<std::string> keys{"coefficient", "kinetic", "slip_rate", "length", "time"};
+
 std::vector<std::string> of_region(const std::string& region) {
-  const std::string prefix = "friction_" + region + "_";
-  return {prefix + "coefficient", prefix + "length", prefix + "time"};
+  std::vector<std::string> names;
+  for (const std::string& key : keys) names.push_back("friction_" + region + "_" + key);
+  return names;
 }
 
 }  // namespace
 
 Schema friction_schema() {
   return {
-      {"friction_law", Kind::text, "", required, range::one_of({"none", "coulomb", "regularized"}),
-       "law of friction between body and surface; regularized is the simplified Prakash-Clifton law"},
+      {"friction_law", Kind::text, "", required,
+       range::one_of({"none", "coulomb", "regularized", "exponential"}),
+       "law of friction between body and surface; regularized is the simplified Prakash-Clifton law, "
+       "exponential the same with a coefficient that goes from static to kinetic with the slip rate v, "
+       "kinetic + (coefficient - kinetic) exp(-|v|/slip_rate)"},
       {"friction_coefficient", Kind::real, "1", required,
-       range::or_formula(range::physical_non_negative, "xt"), "coefficient of friction, mu"},
+       range::or_formula(range::physical_non_negative, "xt"),
+       "coefficient of friction, mu; of the exponential law that of a contact that sticks"},
+      {"friction_kinetic", Kind::real, "1", required, range::or_formula(range::physical_non_negative, "xt"),
+       "coefficient of fast slip, of the exponential law"},
+      {"friction_slip_rate", Kind::real, "m/s", required, range::physical_positive,
+       "slip rate over which the coefficient comes within 1/e of the kinetic one, of the exponential law"},
       {"friction_length", Kind::real, "m", required, range::physical_non_negative,
        "slip distance over which the traction follows the pressure, L*; T = L*/|V|"},
       {"friction_time", Kind::real, "s", absent, range::physical_non_negative,
@@ -43,8 +62,12 @@ Schema friction_schema() {
       {"friction_<region>_coefficient", Kind::real, "1", absent,
        range::or_formula(range::physical_non_negative, "xt"),
        "the coefficient of the phase of that region, in place of friction_coefficient; a node between two "
-       "regions "
-       "takes the mean by the lengths of their edges"},
+       "regions takes the mean by the lengths of their edges"},
+      {"friction_<region>_kinetic", Kind::real, "1", absent,
+       range::or_formula(range::physical_non_negative, "xt"),
+       "the coefficient of fast slip of that phase, in place of friction_kinetic"},
+      {"friction_<region>_slip_rate", Kind::real, "m/s", absent, range::physical_positive,
+       "the slip rate of that phase, in place of friction_slip_rate"},
       {"friction_<region>_length", Kind::real, "m", absent, range::physical_non_negative,
        "the slip distance of that phase, in place of friction_length"},
       {"friction_<region>_time", Kind::real, "s", absent, range::physical_non_negative,
@@ -70,40 +93,81 @@ std::vector<std::string> friction_options(const std::vector<std::string>& region
 
 namespace {
 
-/// The constants written under a prefix; those that are not are `others`.
-FrictionConstants read_constants(const Options& options, const std::string& prefix, const Surface& surface,
-                                 const FrictionChoice& choice, const FrictionConstants* others) {
-  FrictionConstants constants = others ? *others : FrictionConstants{};
-  if (!others || options.given(prefix + "coefficient"))
-    constants.coefficient = options.quantity(prefix + "coefficient");
-  if (choice.law == FrictionChoice::Law::coulomb) return constants;
-  const std::string time_name = prefix + "time", length_name = prefix + "length";
-  if (choice.by_slip_rate) {
-    options.refuse_idle(
-        {time_name},
-        {"with -friction_rate slip", "give -" + length_name + " in its place", {"friction_rate"}});
-    if (!others || options.given(length_name)) constants.length = options.real(length_name);
-    return constants;
-  }
-  options.refuse_both(time_name, length_name);
-  if (const auto time = options.find_real(time_name)) {
-    constants.time = *time;
-  } else if (!others || options.given(length_name)) {
-    constants.length = options.real(length_name);
-    if (surface.speed_formula)
-      throw UserError("-surface_speed is a formula, so that L*/|V| is no constant; give -" + time_name +
-                      " in s, or -friction_rate slip");
-    if (surface.speed == 0)
-      throw UserError("-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -" + time_name +
-                      " in s, or -friction_rate slip");
-    constants.time = constants.length / std::abs(surface.speed);
-  }
-  return constants;
-}
+/// Who has which constants as their own.
+struct Owners {
+  const Options& options;
+  const std::vector<std::string>& regions;
+  const std::vector<char>& touches;
 
-void read_phases(const Options& options, const Surface& surface, const std::vector<std::string>& regions,
-                 const std::vector<char>& touches, FrictionChoice& choice) {
-  const FrictionConstants all{choice.mu(), choice.time, choice.length};
+  bool given(std::size_t r, const std::string& key) const {
+    return options.given("friction_" + regions[r] + "_" + key);
+  }
+  /// Every region that touches has one of these as its own.
+  bool all_have(const std::vector<std::string>& either) const {
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (touches[r] && std::ranges::none_of(either, [&](const auto& key) { return given(r, key); }))
+        return false;
+    return true;
+  }
+};
+
+/// Reads constants under a prefix: those that are given and those that are `needed`; the others stay as they
+/// were.
+class ConstantsReader {
+ public:
+  ConstantsReader(const Options& options, const Surface& surface, const FrictionChoice& choice)
+      : options_(options), surface_(surface), choice_(choice) {}
+
+  template <class Needed>
+  void read(const std::string& prefix, const Needed& needed, FrictionConstants& constants) const {
+    const auto asks = [&](const std::string& key) { return options_.given(prefix + key) || needed({key}); };
+    if (asks("coefficient")) constants.coefficient = options_.quantity(prefix + "coefficient");
+    if (choice_.law == FrictionChoice::Law::coulomb) return;
+    if (choice_.law == FrictionChoice::Law::exponential) {
+      if (asks("kinetic")) constants.kinetic = options_.quantity(prefix + "kinetic");
+      if (asks("slip_rate")) constants.slip_rate = options_.real(prefix + "slip_rate");
+    }
+    const std::string time = prefix + "time", length = prefix + "length";
+    if (choice_.by_slip_rate) {
+      options_.refuse_idle(
+          {time}, {"with -friction_rate slip", "give -" + length + " in its place", {"friction_rate"}});
+      if (asks("length")) constants.length = options_.real(length);
+      return;
+    }
+    options_.refuse_both(time, length);
+    if (const auto found = options_.find_real(time))
+      constants.time = *found;
+    else if (options_.given(length) || needed({"length", "time"}))
+      by_length(time, options_.real(length), constants);
+    if (choice_.law == FrictionChoice::Law::exponential && constants.time == 0 &&
+        (options_.given(time) || options_.given(length)))
+      throw UserError("-" + (options_.given(time) ? time : length) +
+                      " is 0, but a coefficient that depends on the slip rate needs a memory: without, the "
+                      "shortest waves grow without bound; give a time or length above 0");
+  }
+
+ private:
+  void by_length(const std::string& time_name, double length, FrictionConstants& constants) const {
+    const std::string cure =
+        choice_.law == FrictionChoice::Law::exponential ? "" : ", or -friction_rate slip";
+    if (surface_.speed_formula)
+      throw UserError("-surface_speed is a formula, so that L*/|V| is no constant; give -" + time_name +
+                      " in s" + cure);
+    if (surface_.speed == 0)
+      throw UserError("-surface_speed is 0, so the relaxation time L*/|V| is infinite; give -" + time_name +
+                      " in s" + cure);
+    constants.length = length;
+    constants.time = length / std::abs(surface_.speed);
+  }
+
+  const Options& options_;
+  const Surface& surface_;
+  const FrictionChoice& choice_;
+};
+
+void read_phases(const ConstantsReader& reader, const Owners& owners, const FrictionConstants& all,
+                 FrictionChoice& choice) {
+  const auto& [options, regions, touches] = owners;
   bool any = false;
   std::vector<FrictionConstants> phases(regions.size(), all);
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -114,10 +178,36 @@ void read_phases(const Options& options, const Surface& surface, const std::vect
           {"since no edge of region '" + regions[r] + "' meets the surface", "name a region that does", {}});
     if (std::ranges::none_of(names, [&](const auto& name) { return options.given(name); })) continue;
     any = true;
-    phases[r] = read_constants(options, "friction_" + regions[r] + "_", surface, choice, &all);
+    reader.read(
+        "friction_" + regions[r] + "_", [](const std::vector<std::string>&) { return false; }, phases[r]);
     choice.phase_texts.push_back(regions[r] + ": " + constants_text(choice, phases[r]));
   }
-  if (any) choice.phases = phases;
+  if (!any) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find(touches, char{1}) - touches.begin());
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    if (!touches[r]) phases[r] = phases[first];
+  choice.phases = phases;
+  choice.each_its_own = owners.all_have({"coefficient"});
+}
+
+/// Which keys each law has; refuses the others.
+void refuse_idle_constants(const Options& options, const std::string& law,
+                           const std::vector<std::string>& regions) {
+  std::vector<std::string> own;
+  if (law != "none") own.push_back("coefficient");
+  if (law == "regularized") own.insert(own.end(), {"length", "time", "rate", "rate_reference", "threshold"});
+  if (law == "exponential") own.insert(own.end(), {"length", "time", "kinetic", "slip_rate"});
+  const auto refuse = [&](const std::string& key, const std::string& cure) {
+    if (std::ranges::find(own, key) != own.end()) return;
+    std::vector<std::string> names{"friction_" + key};
+    if (std::ranges::find(keys, key) != keys.end())
+      for (const std::string& region : regions) names.push_back("friction_" + region + "_" + key);
+    options.refuse_idle(names, {"with -friction_law " + law, "give -friction_law " + cure, {"friction_law"}});
+  };
+  refuse("coefficient", "coulomb");
+  for (const char* key : {"length", "time", "rate", "rate_reference", "threshold"})
+    refuse(key, "regularized");
+  for (const char* key : {"kinetic", "slip_rate"}) refuse(key, "exponential");
 }
 
 }  // namespace
@@ -126,19 +216,11 @@ FrictionChoice read_friction(const Options& options, const Surface& surface,
                              const std::vector<std::string>& regions, const std::vector<char>& touches) {
   FrictionChoice choice;
   const std::string law = options.text("friction_law");
-  const auto idle = [&](const std::string& suffix, const std::string& with, const std::string& cure) {
-    auto names = friction_options(regions);
-    std::erase_if(names, [&](const auto& name) {
-      return name == "friction_law" ||
-             (suffix.empty() ? name.ends_with("coefficient") : !name.ends_with(suffix));
-    });
-    options.refuse_idle(names,
-                        {"with -friction_law " + with, "give -friction_law " + cure, {"friction_law"}});
-  };
-  if (law == "none") idle("coefficient", law, "coulomb");
-  if (law != "regularized") idle("", law, "regularized");  // all that the other laws do not have
+  refuse_idle_constants(options, law, regions);
   if (law == "none") return choice;
-  choice.law = law == "coulomb" ? FrictionChoice::Law::coulomb : FrictionChoice::Law::regularized;
+  choice.law = law == "coulomb"       ? FrictionChoice::Law::coulomb
+               : law == "exponential" ? FrictionChoice::Law::exponential
+                                      : FrictionChoice::Law::regularized;
   if (choice.law == FrictionChoice::Law::regularized) {
     choice.stored_strength = options.text("friction_threshold") == "regularized";
     choice.by_slip_rate = options.text("friction_rate") == "slip";
@@ -146,24 +228,32 @@ FrictionChoice read_friction(const Options& options, const Surface& surface,
       options.refuse_idle({"friction_rate_reference"},
                           {"with -friction_rate surface", "give -friction_rate slip", {"friction_rate"}});
   }
-  const FrictionConstants constants = read_constants(options, "friction_", surface, choice, nullptr);
+  const ConstantsReader reader(options, surface, choice);
+  const Owners owners{options, regions, touches};
+  FrictionConstants all;
+  reader.read(
+      "friction_", [&](const std::vector<std::string>& either) { return !owners.all_have(either); }, all);
   if (choice.by_slip_rate) choice.rate_reference = options.real("friction_rate_reference");
-  choice.coefficient = constants.coefficient.number;
-  choice.coefficient_formula = constants.coefficient.formula;
-  choice.time = constants.time;
-  choice.length = constants.length;
-  read_phases(options, surface, regions, touches, choice);
+  choice.coefficient = all.coefficient.number;
+  choice.coefficient_formula = all.coefficient.formula;
+  choice.time = all.time;
+  choice.length = all.length;
+  choice.kinetic = all.kinetic;
+  choice.slip_rate = all.slip_rate;
+  read_phases(reader, owners, all, choice);
   return choice;
 }
 
 bool FrictionChoice::of_time() const {
-  return mu().of_time() ||
-         std::ranges::any_of(phases, [](const auto& phase) { return phase.coefficient.of_time(); });
+  return mu().of_time() || kinetic.of_time() || std::ranges::any_of(phases, [](const auto& phase) {
+           return phase.coefficient.of_time() || phase.kinetic.of_time();
+         });
 }
 
 double shortest_memory(const FrictionChoice& choice, double surface_speed) {
-  if (choice.law != FrictionChoice::Law::regularized) return std::numeric_limits<double>::infinity();
+  if (!choice.remembers()) return std::numeric_limits<double>::infinity();
   double time = choice.time, length = choice.length;
+  if (!choice.phases.empty()) time = length = std::numeric_limits<double>::infinity();
   for (const FrictionConstants& phase : choice.phases) {
     time = std::min(time, phase.time);
     length = std::min(length, phase.length);
@@ -182,6 +272,8 @@ FrictionLaw friction_law(const FrictionChoice& choice, double time_step) {
     return SlipRate<RegularisedInstantaneous>{mu, choice.length, choice.rate_reference, time_step};
   }
   const Relaxation step = relaxation(time_step / choice.time);
+  if (choice.law == FrictionChoice::Law::exponential)
+    return Exponential{mu, choice.kinetic.number, choice.slip_rate, step};
   if (choice.stored_strength) return RegularisedStrength{mu, step};
   return RegularisedInstantaneous{mu, step};
 }
@@ -190,22 +282,37 @@ namespace {
 
 double between(double first, double second, double part) { return first + (second - first) * part; }
 
-/// A node's own constants, with the coefficient at a time.
-FrictionChoice at_place(const FrictionChoice& choice, const ContactPlace& node, double time) {
+struct Coefficients {
+  double still, kinetic;
+};
+
+Coefficients coefficients_at(const FrictionChoice& choice, const ContactPlace& node, double time) {
+  if (choice.phases.empty()) return {choice.mu().at(node.place, time), choice.kinetic.at(node.place, time)};
+  const FrictionConstants &a = choice.phases[node.region[0]], &b = choice.phases[node.region[1]];
+  const auto mean = [&](const Quantity& first, const Quantity& second) {
+    return between(first.at(node.place, time), second.at(node.place, time), node.second);
+  };
+  return {mean(a.coefficient, b.coefficient), mean(a.kinetic, b.kinetic)};
+}
+
+}  // namespace
+
+FrictionChoice friction_at(const FrictionChoice& choice, const ContactPlace& node, double time) {
   FrictionChoice own = choice;
   own.phases.clear();
   own.coefficient_formula = nullptr;
-  if (choice.phases.empty()) {
-    own.coefficient = choice.mu().at(node.place, time);
-    return own;
-  }
+  const auto [still, kinetic] = coefficients_at(choice, node, time);
+  own.coefficient = still;
+  own.kinetic = {kinetic};
+  if (choice.phases.empty()) return own;
   const FrictionConstants &a = choice.phases[node.region[0]], &b = choice.phases[node.region[1]];
-  own.coefficient =
-      between(a.coefficient.at(node.place, time), b.coefficient.at(node.place, time), node.second);
   own.time = between(a.time, b.time, node.second);
   own.length = between(a.length, b.length, node.second);
+  own.slip_rate = between(a.slip_rate, b.slip_rate, node.second);
   return own;
 }
+
+namespace {
 
 /// As `friction_law`, but of one kind whatever the constants: without time or length to relax over, a
 /// regularised law is Coulomb's by its weights.
@@ -213,6 +320,8 @@ template <class Law>
 Law law_of(const FrictionChoice& own, double time_step) {
   if constexpr (std::is_same_v<Law, Coulomb>) {
     return {own.coefficient};
+  } else if constexpr (std::is_same_v<Law, Exponential>) {
+    return {own.coefficient, own.kinetic.number, own.slip_rate, relaxation(time_step / own.time)};
   } else if constexpr (Law::uses_slip_rate) {
     constexpr double least = 1e-200;  // m
     return {own.coefficient, std::max(own.length, least), own.rate_reference, time_step};
@@ -226,7 +335,7 @@ template <class Law>
 FrictionLaws one_each(const FrictionChoice& choice, double time_step,
                       const std::vector<ContactPlace>& nodes) {
   std::vector<Law> laws;
-  for (const ContactPlace& node : nodes) laws.push_back(law_of<Law>(at_place(choice, node, 0), time_step));
+  for (const ContactPlace& node : nodes) laws.push_back(law_of<Law>(friction_at(choice, node, 0), time_step));
   return laws;
 }
 
@@ -237,6 +346,7 @@ FrictionLaws friction_laws(const FrictionChoice& choice, double time_step,
   if (!choice.varies())
     return std::visit([](const auto& law) -> FrictionLaws { return law; }, friction_law(choice, time_step));
   if (choice.law == FrictionChoice::Law::coulomb) return one_each<Coulomb>(choice, time_step, nodes);
+  if (choice.law == FrictionChoice::Law::exponential) return one_each<Exponential>(choice, time_step, nodes);
   if (choice.by_slip_rate)
     return choice.stored_strength ? one_each<SlipRate<RegularisedStrength>>(choice, time_step, nodes)
                                   : one_each<SlipRate<RegularisedInstantaneous>>(choice, time_step, nodes);
@@ -250,16 +360,10 @@ bool follow(const FrictionChoice& choice, double time, const std::vector<Contact
   const auto set = [&](auto& each) {
     if constexpr (requires { each.begin(); }) {
       for (std::size_t k = 0; k < nodes.size(); ++k) {
-        double mu = 0;
-        if (choice.phases.empty()) {
-          mu = choice.mu().at(nodes[k].place, time);
-        } else {
-          const auto& [place, region, second] = nodes[k];
-          mu = between(choice.phases[region[0]].coefficient.at(place, time),
-                       choice.phases[region[1]].coefficient.at(place, time), second);
-        }
-        sound = sound && mu >= 0 && std::isfinite(mu);
-        each[k].coefficient = mu;
+        const auto [still, kinetic] = coefficients_at(choice, nodes[k], time);
+        sound = sound && still >= 0 && std::isfinite(still) && kinetic >= 0 && std::isfinite(kinetic);
+        each[k].coefficient = still;
+        if constexpr (requires { each[k].kinetic; }) each[k].kinetic = kinetic;
       }
     }
   };
@@ -269,15 +373,13 @@ bool follow(const FrictionChoice& choice, double time, const std::vector<Contact
 
 std::string describe(const FrictionChoice& choice) {
   if (choice.law == FrictionChoice::Law::none) return "none";
-  std::string mu = mu_text(choice.mu());
-  for (const std::string& text : choice.phase_texts) mu += ", in " + text;
-  if (choice.law == FrictionChoice::Law::coulomb) return "coulomb, " + mu;
-  const std::string relaxation =
-      choice.by_slip_rate
-          ? format("T = L/(|slip rate| + V*), L {:g} m, V* {:g} m/s", choice.length, choice.rate_reference)
-          : "T " + engineering(choice.time, "s");
-  return "regularized, " + mu + ", " + relaxation + ", threshold " +
-         (choice.stored_strength ? "regularized" : "instantaneous");
+  const FrictionConstants all{choice.mu(), choice.time, choice.length, choice.kinetic, choice.slip_rate};
+  std::string text = choice.each_its_own ? "" : ", " + constants_text(choice, all);
+  for (const std::string& phase : choice.phase_texts) text += ", in " + phase;
+  if (choice.law == FrictionChoice::Law::coulomb) return "coulomb" + text;
+  if (choice.law == FrictionChoice::Law::exponential) return "exponential" + text;
+  if (choice.by_slip_rate) text += format(", T = L/(|slip rate| + V*), V* {:g} m/s", choice.rate_reference);
+  return "regularized" + text + ", threshold " + (choice.stored_strength ? "regularized" : "instantaneous");
 }
 
 }  // namespace slipscale

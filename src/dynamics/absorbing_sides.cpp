@@ -18,10 +18,9 @@ int faces(const BoundaryEdge& edge) {
 }
 
 /// σ of the uniform initial state at a place, (xx, yy, xy), Pa.
-std::array<double, 3> initial_stress(const InitialState& initial, const Material& material,
-                                     const Vector2& at) {
+std::array<double, 3> initial_stress(const InitialState& initial, const Solid& material, const Vector2& at) {
   const double p = initial.pressure_at_start().at(at, 0), shear = initial.shear_at_start().at(at, 0);
-  return {-p * material.stiffness(0, 1) / material.c22(), -p, -shear};
+  return {-p * material.stiffness(0, 1) / material.stiffness(1, 1), -p, -shear};
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ AbsorbingSides::AbsorbingSides(MPI_Comm comm, const Model& model,
                 "' does not face along x or y everywhere, which its dampers need; cut the body along an axis";
         continue;
       }
-      const Material& material = model.materials[mesh.cells.region[cells[e]]];
+      const Solid material = model.materials[mesh.cells.region[cells[e]]].at(cells[e]);
       const double length = std::hypot(edge.outward[0], edge.outward[1]);
       const WaveSpeeds speeds = wave_speeds(material, axis == 0 ? 1 : 0, axis == 0 ? 0 : 1);
       Vector2 damper{}, force{};

@@ -41,6 +41,8 @@ std::vector<StateGroup> SlidingBody::state() {
   else
     contact.arrays = {{"memory", "Pa", "", 2, nullptr}};
   ledger_.add_state(nodes, boundary, contact);
+  sums_.add_state(contact);
+  if (cell_damping_) cell_damping_->add_state(nodes);
   body_acceleration_.add_state(nodes);
 
   carried_ = {static_cast<double>(step_), surface_travel_, start_gravity_, start_energy_,
@@ -54,6 +56,7 @@ std::vector<StateGroup> SlidingBody::state() {
        5, &carried_.steps}};
 
   std::vector<StateGroup> groups{std::move(nodes), std::move(boundary), std::move(contact), std::move(run)};
+  if (cell_damping_) groups.push_back(cell_damping_->cells_state());
   for (const auto& side : *straight_) groups.push_back(side->state());
   for (StateGroup& plate : ledger_.plates_state(*straight_)) groups.push_back(std::move(plate));
   return groups;
@@ -68,6 +71,7 @@ void SlidingBody::resume() {
   if (!physics_.keeps_force())
     for (int k = 0; k < boundary_.size(); ++k) force_[boundary_.node[k]] = carried_force_[k];
   ledger_.resume(surface_travel_);
+  if (cell_damping_) cell_damping_->resume();
   if (lifts())
     for (const long n : {step_ - 1, step_})
       for (int k = 0; k < contact_.size(); ++k)

@@ -14,10 +14,11 @@ void refuse_unless_uniform(const std::vector<Material>& materials) {
   for (const Material& material : materials) {
     const Eigen::Matrix3d &c = material.stiffness, &first = materials.front().stiffness;
     if (c(1, 1) != first(1, 1) || c(2, 2) != first(2, 2) || c(0, 1) != first(0, 1) || c(1, 2) != 0 ||
-        c(0, 2) != 0)
+        c(0, 2) != 0 || material.grading)
       throw UserError(
           "-initial_pressure and -initial_shear describe a uniform state, but the materials of the regions "
-          "differ or couple shear to stretch; load the body through -boundary_<boundary>_pressure instead");
+          "differ, are graded or couple shear to stretch; load the body through "
+          "-boundary_<boundary>_pressure instead");
   }
 }
 
@@ -31,6 +32,15 @@ Schema initial_schema() {
       {"initial_displacement", Kind::reals, "m", "0,0", of_place,
        "displacement at the start, ux,uy, added to that of the gap and of the uniform state; need not be in "
        "equilibrium"},
+      {"initial_file", Kind::text, "", absent, range::any,
+       "displacement and velocity at the start from a file, added to the others: fields.h5 of a run, or its "
+       "folder, on any mesh that holds every node (1e-6 of its size is let pass), interpolated with the "
+       "shape "
+       "functions of its cells; or a table .csv with columns x,y (m) and any of ux,uy (or u,v; m), vx,vy "
+       "(m/s) "
+       "at the points of a grid, bilinear between them. Friction starts without memory of it"},
+      {"initial_time", Kind::real, "s", absent, range::physical_non_negative,
+       "the frame of initial_file; the last one without"},
       {"initial_rotation", Kind::real, "rad/s", "0", range::physical,
        "turns the body counter-clockwise about the middle of the block at the start, added to the velocity"},
       {"initial_sine_amplitude", Kind::real, "m/s", "0", range::physical,
@@ -61,6 +71,12 @@ InitialState read_initial(const Options& options, const Mesh& mesh) {
     initial.velocity_formula[axis] = velocity[axis].formula;
   }
   initial.displacement = read("initial_displacement", "ux,uy in m");
+  initial.file = options.find_text("initial_file").value_or("");
+  if (initial.file.empty())
+    options.refuse_idle({"initial_time"}, {"without -initial_file", "give the file", {}});
+  else if (initial.file.ends_with(".csv"))
+    options.refuse_idle({"initial_time"}, {"with a table", "give a fields.h5", {"initial_file"}});
+  initial.file_time = options.find_real("initial_time");
   initial.rotation = options.real("initial_rotation");
   initial.amplitude = options.real("initial_sine_amplitude");
   if (initial.amplitude != 0)
@@ -102,9 +118,13 @@ void set_initial(const InitialState& initial, const Mesh& mesh, const std::vecto
     for (int axis = 0; axis < 2; ++axis)
       if (!initial.displacement[axis].is_zero())
         displacement[i][axis] += initial.displacement[axis].at(place, 0);
+    if (initial.fields)
+      for (int axis = 0; axis < 2; ++axis) displacement[i][axis] += initial.fields->displacement[i][axis];
     if (i >= mesh.nodes.owned) continue;
     for (int axis = 0; axis < 2; ++axis)
       velocity[i][axis] = Quantity{initial.velocity[axis], initial.velocity_formula[axis]}.at(place, 0);
+    if (initial.fields)
+      for (int axis = 0; axis < 2; ++axis) velocity[i][axis] += initial.fields->velocity[i][axis];
     if (initial.rotation != 0) {
       velocity[i][0] -= initial.rotation * (mesh.nodes.position[i][1] - middle[1]);
       velocity[i][1] += initial.rotation * (mesh.nodes.position[i][0] - middle[0]);

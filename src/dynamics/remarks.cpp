@@ -6,7 +6,9 @@
 
 #include "slipscale/base/print.hpp"
 #include "slipscale/mesh/outer_boundary.hpp"
+#include "slipscale/mesh/shape_functions.hpp"
 #include "slipscale/solid/material.hpp"
+#include "slipscale/solid/stress.hpp"
 
 namespace slipscale {
 namespace {
@@ -140,6 +142,46 @@ std::string memory_below_step(const SlidingBody& body) {
          "-friction_length (or -friction_time), or a smaller step";
 }
 
+constexpr double out_of_equilibrium = 1e-6;  ///< of the scale below; rounding leaves far less
+
+struct LeftForce {
+  double size = 0, scale = 0;  ///< N/m
+  Vector2 place{};             ///< of the node, m
+};
+
+/// The largest force m a at the start, but for what supports hold, and the largest that stress makes on the
+/// side of a cell: the largest component times the root of the area. Collective.
+LeftForce left_force(const SlidingBody& body) {
+  const Model& model = body.model();
+  const Mesh& mesh = model.mesh;
+  LeftForce left;
+  int found = -1;
+  for (int i = 0; i < mesh.nodes.owned; ++i) {
+    Vector2 force = body.acceleration_n()[i];
+    const int slot = body.boundary_nodes().slot_of(i);
+    for (int axis = 0; axis < 2; ++axis)
+      force[axis] *= slot >= 0 && body.boundary_nodes().support[slot][axis] != 0 ? 0 : model.mass[i];
+    if (const double size = std::hypot(force[0], force[1]); size > left.size) left.size = size, found = i;
+  }
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto stress = stress_of_cell(mesh, model.materials, body.displacement_n(), cell);
+    const double most = std::max({std::abs(stress[0]), std::abs(stress[1]), std::abs(stress[2])});
+    left.scale = std::max(left.scale, most * std::sqrt(cell_area(mesh.cells.corners_of(cell))));
+  }
+  const double own = left.size;
+  double sizes[2] = {left.size, left.scale};
+  MPI_Allreduce(MPI_IN_PLACE, sizes, 2, MPI_DOUBLE, MPI_MAX, body.comm());
+  left.size = sizes[0], left.scale = sizes[1];
+  PetscInt number = found >= 0 && own == left.size ? mesh.nodes.number[found] : PETSC_MAX_INT;
+  const PetscInt mine = number;
+  MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPIU_INT, MPI_MIN, body.comm());
+  double place[2] = {-nowhere, -nowhere};
+  if (found >= 0 && mine == number) std::copy_n(mesh.nodes.position[found].data(), 2, place);
+  MPI_Allreduce(MPI_IN_PLACE, place, 2, MPI_DOUBLE, MPI_MAX, body.comm());
+  left.place = {place[0], place[1]};
+  return left;
+}
+
 std::vector<std::string> those_that_speak(std::vector<std::string> texts) {
   std::erase(texts, "");
   return texts;
@@ -149,7 +191,7 @@ std::vector<std::string> those_that_speak(std::vector<std::string> texts) {
 std::string locking(const Model& model) {
   std::string names;
   for (std::size_t r = 0; r < model.materials.size(); ++r)
-    if (nearly_incompressible(model.materials[r].stiffness))
+    if (nearly_incompressible(model.materials[r]))
       names += (names.empty() ? "'" : ", '") + model.mesh.regions[r].name + "'";
   return names.empty()
              ? ""
@@ -164,6 +206,17 @@ std::vector<std::string> remarks_at_start(const SlidingBody& body) {
   const std::string doubt = doubtful(body.model());
   if (!body.scene().surface) return those_that_speak({doubt, locking(body.model())});
   return those_that_speak({doubt, locking(body.model()), memory_below_step(body), uncovered(body)});
+}
+
+std::vector<std::string> remarks_on_first_step(const SlidingBody& body) {
+  const InitialState& initial = body.scene().initial;
+  if (!initial.fields && initial.displacement[0].is_zero() && initial.displacement[1].is_zero()) return {};
+  const LeftForce left = left_force(body);
+  if (!(left.size > out_of_equilibrium * left.scale)) return {};
+  return {format(
+      "the initial state is not in equilibrium: a force of {:.3g} N/m is left on the node at x = {:g} m, y = "
+      "{:g} m, {:.2g} of the largest that stress makes on the side of a cell; the body starts to move by it",
+      left.size, left.place[0], left.place[1], left.size / left.scale)};
 }
 
 std::vector<std::string> remarks_at_end(const SlidingBody& body) {

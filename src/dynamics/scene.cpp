@@ -88,6 +88,7 @@ std::vector<std::string> unsteady_formulas(const Scene& scene) {
   name(scene.surface && scene.surface->height_formula, "surface_height");
   name(scene.surface && scene.surface->speed_formula, "surface_speed");
   name(scene.friction.coefficient_formula != nullptr, "friction_coefficient");
+  name(scene.friction.kinetic.formula != nullptr, "friction_kinetic");
   name(!scene.friction.phases.empty(), "friction_<region>_coefficient");
   return names;
 }
@@ -145,9 +146,15 @@ Scene read_scene(const Options& options, const Mesh& mesh) {
     scene.friction = read_friction(options, *scene.surface, mesh.region_names(),
                                    regions_at(mesh, *mesh.find_boundary(scene.surface->boundary)));
     check_at(options, "friction_coefficient", scene.friction.mu(), mesh, nodes);
-    for (std::size_t r = 0; r < scene.friction.phases.size(); ++r)
-      if (const std::string name = "friction_" + mesh.regions[r].name + "_coefficient"; options.given(name))
-        check_at(options, name, scene.friction.phases[r].coefficient, mesh, nodes);
+    check_at(options, "friction_kinetic", scene.friction.kinetic, mesh, nodes);
+    for (std::size_t r = 0; r < scene.friction.phases.size(); ++r) {
+      const std::string prefix = "friction_" + mesh.regions[r].name + "_";
+      const FrictionConstants& phase = scene.friction.phases[r];
+      if (options.given(prefix + "coefficient"))
+        check_at(options, prefix + "coefficient", phase.coefficient, mesh, nodes);
+      if (options.given(prefix + "kinetic"))
+        check_at(options, prefix + "kinetic", phase.kinetic, mesh, nodes);
+    }
   } else {
     auto idle = names_in(surface_schema());
     for (const std::string& name : friction_options(mesh.region_names())) idle.push_back(name);
@@ -271,9 +278,16 @@ std::string describe(const TimeStep& step, const Model& model) {
   std::string text = "block " + engineering(size[0], "m") + " x " + engineering(size[1], "m") +
                      ", shortest edge " + engineering(mesh.shortest_edge, "m") + "\n";
   for (std::size_t r = 0; r < model.materials.size(); ++r) {
-    const WaveSpeeds speeds = wave_speeds(model.materials[r], 0, 1);
-    text += format("  waves along y in {}: {:.5g} and {:.5g} m/s, crossing the height in {}\n",
+    const Material& material = model.materials[r];
+    const WaveSpeeds speeds = wave_speeds(material, 0, 1);
+    text += format("  waves along y in {}: {:.5g} and {:.5g} m/s, crossing the height in {}",
                    mesh.regions[r].name, speeds.fast, speeds.slow, engineering(size[1] / speeds.fast, "s"));
+    if (material.grading) {
+      const WaveSpeeds most = wave_speeds(material.grading->fastest, 0, 1);
+      text += format(" where they are slowest; {:.5g} and {:.5g} m/s, {}, where fastest", most.fast,
+                     most.slow, engineering(size[1] / most.fast, "s"));
+    }
+    text += "\n";
   }
   text += format("largest frequency: {:.4g} 1/s (Lanczos), at most {:.4g} 1/s (largest element)\n",
                  step.frequency.sharp, step.frequency.safe);

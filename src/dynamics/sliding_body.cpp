@@ -1,12 +1,9 @@
 #include "slipscale/dynamics/sliding_body.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/order_free_sum.hpp"
-#include "slipscale/base/print.hpp"
-#include "slipscale/mesh/boundary_cells.hpp"
 
 namespace slipscale {
 namespace {
@@ -24,44 +21,12 @@ std::vector<std::string> boundaries_in_use(const Scene& scene) {
 BulkPhysics bulk_physics(const Scene& scene) {
   const bool dissipates = scene.beta2 > 0.5;
   return {scene.damping.mass > 0, scene.damping.stiffness > 0, dissipates,
-          dissipates || scene.friction.by_slip_rate, scene.acceleration().of_place()};
+          dissipates || scene.friction.asks_slip_rate(), scene.acceleration().of_place()};
 }
 
 BulkPhysics keeping_acceleration(BulkPhysics physics) {
   physics.keeps_acceleration = true;
   return physics;
-}
-
-/// Half of each edge of the boundary to each of its ends, by local node, m.
-std::vector<double> tributary_lengths(const Mesh& mesh, const Boundary& boundary) {
-  std::vector<double> length(static_cast<std::size_t>(mesh.nodes.size()), 0);
-  for (const BoundaryEdge& edge : boundary.edges)
-    for (int end : edge.nodes) length[end] += 0.5 * std::hypot(edge.outward[0], edge.outward[1]);
-  return length;
-}
-
-/// The regions of the edges that meet in each node of the boundary, by local node; places are left out. The
-/// lower region first, so that the mean does not depend on the order of edges.
-std::vector<ContactPlace> regions_of_nodes(const Mesh& mesh, const Boundary& boundary) {
-  struct Share {
-    int region;
-    double length;
-  };
-  std::vector<std::vector<Share>> shares(static_cast<std::size_t>(mesh.nodes.size()));
-  const auto cells = boundary_cells(mesh, boundary);
-  for (std::size_t e = 0; e < cells.size(); ++e)
-    for (const int end : boundary.edges[e].nodes)
-      shares[end].push_back({mesh.cells.region[cells[e]],
-                             std::hypot(boundary.edges[e].outward[0], boundary.edges[e].outward[1])});
-  std::vector<ContactPlace> places(shares.size());
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    auto& own = shares[i];
-    if (own.empty()) continue;
-    std::ranges::sort(own, {}, &Share::region);
-    places[i].region = {own.front().region, own.back().region};
-    if (own.size() > 1) places[i].second = own.back().length / (own.front().length + own.back().length);
-  }
-  return places;
 }
 
 /// Moves nodes whose forces are all there, and does something before and after while they are in the cache.
@@ -142,11 +107,8 @@ SlidingBody::SlidingBody(MPI_Comm comm, const Model& model, const Scene& scene, 
   start_gravity_ = order_free_sums(comm, {work}, largest_count())[0];
 }
 
-/// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt, where the body
-/// was with the velocity that it starts with, and supports with theirs.
-void SlidingBody::start_force() {
-  if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
-  NodalVector past(comm_, model_.mesh.nodes, true);
+/// Where the body was at t = −Δt with the velocity that it starts with, and supports with theirs.
+void SlidingBody::set_past(NodalVector& past) const {
   std::copy_n(w_.data(), model_.mesh.nodes.owned, past.data());
   supports_->start(boundary_, time_step_, past.data());
   for (int i = 0; i < model_.mesh.nodes.owned; ++i)
@@ -154,45 +116,22 @@ void SlidingBody::start_force() {
       past.data()[i][axis] = u_.data()[i][axis] - time_step_ * past.data()[i][axis];
   past.begin_update();
   past.end_update();
+}
+
+/// The stiffness damping of the first step lags like that of every other one: K u at t = −Δt.
+void SlidingBody::start_force() {
+  if (!physics_.stiffness_damping) return model_.multiply(u_.data(), force_.data());
+  NodalVector past(comm_, model_.mesh.nodes, true);
+  set_past(past);
   model_.multiply(past.data(), force_.data());
 }
 
-void SlidingBody::set_contact_nodes() {
-  const Mesh& mesh = model_.mesh;
-  const Boundary& boundary = *mesh.find_boundary(scene_.surface->boundary);
-  const auto length = tributary_lengths(mesh, boundary);
-  const auto regions = regions_of_nodes(mesh, boundary);
-  std::string fault, shared;
-  for (int i : boundary.nodes) {
-    const int slot = boundary_.slot_of(i);
-    if (straight_->holds(slot))
-      shared =
-          "-boundary_…_y keeps a side straight that shares a node with boundary '" + boundary.name +
-          "', which meets the surface; a side that touches the surface cannot be kept straight, so make it "
-          "free along y";
-    if (supports_->prescribes(slot, 1)) continue;
-    const Vector2& place = mesh.nodes.position[i];
-    const double height = scene_.surface->height_at(place[0], 0), clearance = place[1] - height;
-    const double tolerance = 1e-6 * length[i];  // rounding tilts a straight side by far less
-    if (clearance + u_.data()[i][1] < -tolerance)
-      fault = format(
-          "-surface_height is {:g} m, but the body reaches down to {} m at x = {:g} m; lower the surface or "
-          "lift the body with -initial_gap",
-          height, apart_from(height, mesh.nodes.position[i][1] + u_.data()[i][1], 6),
-          mesh.nodes.position[i][0]);
-    contact_.add(i, slot, model_.mass[i], length[i], clearance, supports_->prescribes(slot, 0));
-    contact_places_.push_back(regions[i]);
-    contact_places_.back().place = place;
-  }
-  throw_together(comm_, shared);
-  throw_together(comm_, fault);
-  const InitialState& initial = scene_.initial;
-  if (initial.pressure == 0 && initial.shear == 0) return;
-  for (int k = 0; k < contact_.size(); ++k) {
-    const double shear = initial.shear_at_start().at(contact_places_[k].place, 0);
-    contact_.memory[k] = {scene_.friction.stored_strength ? std::abs(shear) : shear,
-                          initial.pressure_at_start().at(contact_places_[k].place, 0)};
-  }
+void SlidingBody::keep_cell_damping() {
+  if (!physics_.mass_damping && !physics_.stiffness_damping) return;
+  NodalVector past(comm_, model_.mesh.nodes, true);
+  set_past(past);
+  cell_damping_ = std::make_unique<CellDamping>(comm_, model_, scene_.damping, scene_.beta2, time_step_,
+                                                u_.data(), past.data(), w_.data());
 }
 
 /// The force on a node inside the body is of use to its motion alone, except where the bulk dissipates, and
@@ -280,6 +219,7 @@ void SlidingBody::add_to_ledger(bool first, const StepCoefficients& step, const 
   static const LogEvent event("Ledger");
   const LogEvent::Scope scope(event);
   ledger_.add(boundary_, contact_, moving, surface_travel_);
+  sums_.add(contact_, surface_travel_, boundary_.displacement.data(), u_.data());
   if (lifts()) ledger_.add_lift(contact_);
   if (!absorbing_->empty()) {
     absorbing_->measure(step, boundary_, moving);
@@ -305,6 +245,11 @@ void SlidingBody::advance(Observed observed) {
     static const LogEvent event("HaloEnd");
     const LogEvent::Scope scope(event);
     u_.end_update();
+  }
+  if (cell_damping_ && !first) {
+    static const LogEvent event("CellDamping");
+    const LogEvent::Scope scope(event);
+    cell_damping_->close_step(u_.data(), w_.data());
   }
   {
     static const LogEvent event("StiffnessMotion");
@@ -336,46 +281,7 @@ void SlidingBody::advance(Observed observed) {
   }
 }
 
-/// The velocity at t_n of owned nodes, and the terms of the energies, J/m: ½vᵀMv, the scheme's correction of
-/// it (Δt²β2/4) aᵀMa, ½uᵀKu, the work of gravity.
-void SlidingBody::observe_nodes(const StepCoefficients& step, int begin, int end) {
-  const std::size_t moving = moving_things();
-  double *const kinetic = terms_.data(), *const correction = kinetic + moving,
-                *const strain = correction + moving, *const gravity = strain + model_.mass.size();
-  const SeenNodes seen{w_.data() + begin,     a_.data() + begin,   kept_.data() + begin,
-                       force_.data() + begin, &model_.mass[begin], v_.data() + begin,
-                       kinetic + begin,       correction + begin,  strain + begin};
-  // v_n = w_n + velocity a_n = w_{n+1} − back a_n
-  see(seen, end - begin, step.predictor - step.velocity, 0.25 * time_step_ * time_step_ * scene_.beta2,
-      model_.kernel.instructions);
-  if (scene_.body_acceleration != Vector2{})
-    for (int i = begin; i < end; ++i) gravity[i] = gravity_work(i, kept_[i]);
-}
-
-/// Where loads, supports and the surface have acted since the free motion.
-void SlidingBody::observe_boundary(const StepCoefficients& step, Observed observed) {
-  static const LogEvent event("ObservedState");
-  const LogEvent::Scope scope(event);
-  const double back = step.predictor - step.velocity;
-  for (const int i : boundary_.node)
-    if (observed == Observed::everything)
-      observe_nodes(step, i, i + 1);
-    else
-      for (int axis = 0; axis < 2; ++axis)
-        v_.data()[i][axis] = w_.data()[i][axis] - back * a_.data()[i][axis];
-}
-
 double SlidingBody::surface_velocity() const { return scene_.surface ? scene_.surface->velocity(time()) : 0; }
-
-Vector2 SlidingBody::force_on_support(int slot) const {
-  const Vector2 &now = force_[boundary_.node[slot]], &before = boundary_.internal[slot];
-  const double lag = scene_.damping.stiffness / time_step_;
-  return {-(now[0] + lag * (now[0] - before[0])), -(now[1] + lag * (now[1] - before[1]))};
-}
-
-double SlidingBody::gravity_work(int node, const Vector2& displacement) const {
-  return body_acceleration_.work(node, model_.mass[node], displacement);
-}
 
 bool SlidingBody::lifts() const {
   return scene_.surface && scene_.surface->height_formula && scene_.surface->height_formula->of_time();
@@ -391,60 +297,6 @@ bool SlidingBody::formulas_sound() const {
   int sound = sound_ && loads_.sound() && supports_->sound();
   MPI_Allreduce(MPI_IN_PLACE, &sound, 1, MPI_INT, MPI_MIN, comm_);
   return sound != 0;
-}
-
-/// Nodes and plates.
-std::size_t SlidingBody::moving_things() const { return model_.mass.size() + straight_->size(); }
-
-/// What this rank adds to the sums that `observe_nodes` has made the terms of; plates are added here.
-SlidingBody::BulkTerms SlidingBody::bulk_terms() const {
-  const double correction = 0.25 * time_step_ * time_step_ * scene_.beta2;
-  const std::size_t owned = model_.mass.size(), moving = moving_things();
-  const std::span all(terms_);
-  const auto velocity = all.first(moving), acceleration = all.subspan(moving, moving),
-             strain = all.subspan(2 * moving, owned), work = all.subspan(2 * moving + owned);
-  std::size_t plate = owned;
-  for (const auto& side : *straight_) {
-    const auto energies = side->energies();
-    velocity[plate] = energies[0];
-    acceleration[plate++] = 2 * correction * energies[1];
-  }
-  return {velocity, acceleration, strain, work};
-}
-
-/// Not less than the number of terms of any sum that are not zero.
-std::int64_t SlidingBody::largest_count() const {
-  return model_.mesh.nodes.total + static_cast<std::int64_t>(straight_->size());
-}
-
-Energy SlidingBody::energy() const {
-  const BulkTerms bulk = bulk_terms();
-  const auto works = ledger_.works();
-  std::vector<std::span<const double>> lists(bulk.begin(), bulk.end());
-  for (const auto& work : works) lists.push_back(work.list);
-  const auto sums = order_free_sums(comm_, lists, largest_count());
-  Energy energy;
-  energy.kinetic = sums[0] - sums[1];
-  energy.flowed = sums[0] + sums[1];  // the two may cancel to rounding
-  energy.strain = sums[2];
-  energy.body_force = sums[3] - start_gravity_;
-  for (std::size_t k = 0; k < works.size(); ++k) energy.*works[k].energy += sums[bulk.size() + k];
-  close_balance(energy, start_energy_);
-  return energy;
-}
-
-Momentum SlidingBody::momentum() const {
-  const Mesh& mesh = model_.mesh;
-  const Vector2 middle{0.5 * (mesh.lower[0] + mesh.upper[0]), 0.5 * (mesh.lower[1] + mesh.upper[1])};
-  std::vector<double> mass = model_.mass, x, y, angular;
-  for (int i = 0; i < mesh.nodes.owned; ++i) {
-    const Vector2 &v = v_.data()[i], &place = mesh.nodes.position[i];
-    x.push_back(mass[i] * v[0]);
-    y.push_back(mass[i] * v[1]);
-    angular.push_back(mass[i] * ((place[0] - middle[0]) * v[1] - (place[1] - middle[1]) * v[0]));
-  }
-  const auto sums = order_free_sums(comm_, {mass, x, y, angular}, mesh.nodes.total);
-  return {sums[0], {sums[1], sums[2]}, sums[3]};
 }
 
 bool SlidingBody::has_touched() const {

@@ -62,7 +62,7 @@ std::vector<XdmfAttribute> write(SharedFile& file, const MeshLayout& mesh, const
 
 void write_statistics(MPI_Comm comm, const MeshImage& image, const StatisticsSample& sample,
                       const FieldStatistics& stress, const FieldStatistics& strain, const std::string& folder,
-                      const std::string& name) {
+                      const std::string& name, const std::optional<std::vector<double>>& damping_power) {
   SharedFile file(comm, folder + "/" + name + ".h5",
                   statistics_bytes(image.points().total(), image.cells().total()));
   const MeshLayout layout = write_mesh(comm, file, image);
@@ -70,6 +70,11 @@ void write_statistics(MPI_Comm comm, const MeshImage& image, const StatisticsSam
   for (const auto& [quantity, found] : {std::pair{&quantities[0], &stress}, {&quantities[1], &strain}}) {
     const auto parts = write(file, layout, image.cells(), sample, *quantity, *found);
     shown.insert(shown.end(), parts.begin(), parts.end());
+  }
+  if (damping_power) {
+    file.write({"/statistics/damping_power", "W/m^3", "mean power of bulk damping"}, image.cells(), {},
+               damping_power->data());
+    shown.push_back({"damping_power", XdmfAttribute::Centre::cell, "/statistics/damping_power", {}});
   }
   file.describe("/statistics", [&](hid_t group) {
     write_attribute(group, "from", sample.from);

@@ -46,8 +46,8 @@ OwnedMat assembled_stiffness(MPI_Comm comm, const Model& model) {
     const auto nodes = mesh.cells.nodes_of(cell);
     const auto count = static_cast<PetscInt>(nodes.size());
     const auto shape = mesh.shape_of(cell);
-    const auto k =
-        element_stiffness({shape.data(), nodes.size()}, model.materials[mesh.cells.region[cell]].stiffness);
+    const auto k = element_stiffness({shape.data(), nodes.size()},
+                                     model.materials[mesh.cells.region[cell]].at(cell).stiffness);
     std::array<PetscInt, 4> rows{}, columns{};
     for (PetscInt c = 0; c < count; ++c) {
       const bool own = nodes[c] < mesh.nodes.owned;

@@ -70,8 +70,8 @@ double ModeMeasurement::near_contact_energy(const Columns& shape) const {
               u.data()[nodes[c]][axis] - u.data()[nodes[0]][axis];
         height += mesh.cells.corners_of(cell)[c][1] / static_cast<double>(nodes.size());
       }
-      const auto k =
-          element_stiffness({seen.data(), nodes.size()}, model.materials[mesh.cells.region[cell]].stiffness);
+      const auto k = element_stiffness({seen.data(), nodes.size()},
+                                       model.materials[mesh.cells.region[cell]].at(cell).stiffness);
       const double strain = corners.dot(k * corners);
       energy[0] += strain;
       if (height < limit) energy[1] += strain;
@@ -93,7 +93,15 @@ ModeMeasures ModeMeasurement::measure(const ModesBasis& basis, const SlidingLaw&
   found.shape = basis.shape_of(y);
   found.near_contact = near_contact_energy(found.shape);
   found.normal = (1.0 + law.damping.stiffness * p) * basis.reaction_of(y);
-  found.tangential = body_.direction() * law.at(p).friction * found.normal;
+  const SlidingLaw::Value value = law.at(p);
+  found.tangential = body_.direction() * value.friction * found.normal;
+  for (Eigen::Index k = 0; k < found.tangential.size(); ++k)
+    found.tangential[k] *= body_.closed()[static_cast<std::size_t>(k)].weight;
+  for (std::size_t k = 0; k < body_.slip_slope.size(); ++k)
+    if (const int place = body_.sliding_places()[k]; place >= 0)
+      found.tangential[static_cast<Eigen::Index>(k)] -= (1.0 + law.damping.stiffness * p) * value.slip *
+                                                        body_.slip_slope[k] *
+                                                        Complex(found.shape(place, 0), found.shape(place, 1));
   Eigen::VectorXd work = Eigen::VectorXd::Zero(shares_.cols());
   const double frequency = std::abs(p.imag());
   for (Eigen::Index k = 0; frequency > 0 && k < shares_.rows(); ++k) {

@@ -123,8 +123,7 @@ Place place_of(const ReducedProblem& problem, const std::vector<SlidingMode>& kn
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> slow(problem.stiffness);
   vectors.rightCols(most_vectors - of_known) = slow.eigenvectors().leftCols(most_vectors - of_known);
   Place place{orthonormal_part(vectors), {}};
-  place.problem.stiffness = place.part.transpose() * problem.stiffness * place.part;
-  place.problem.friction = place.part.transpose() * problem.friction * place.part;
+  place.problem = problem.part(place.part);
   return place;
 }
 
@@ -158,7 +157,8 @@ Candidates candidates(MPI_Comm comm, const ReducedProblem& problem, const Slidin
   MPI_Bcast(&count, sizeof count, MPI_BYTE, 0, comm);
   found.resize(count);
   MPI_Bcast(found.data(), static_cast<int>(count), MPI_CXX_DOUBLE_COMPLEX, 0, comm);
-  for (Eigen::MatrixXd* matrix : {&place.part, &place.problem.stiffness, &place.problem.friction})
+  for (Eigen::MatrixXd* matrix :
+       {&place.part, &place.problem.stiffness, &place.problem.friction, &place.problem.slip})
     share(comm, *matrix);
   Candidates list{{}, count};
   std::vector<std::size_t> all;

@@ -22,6 +22,17 @@ Columns orthonormal(MPI_Comm comm, const Column& mass, const Columns& x, double 
 
 }  // namespace
 
+namespace {
+
+/// On any rank. Collective.
+bool depends_on_slip(MPI_Comm comm, const SlidingOperator& body) {
+  int depends = !body.slip_slope.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &depends, 1, MPI_INT, MPI_MAX, comm);
+  return depends != 0;
+}
+
+}  // namespace
+
 Eigen::Index ModesBasis::add(Columns x, double least) {
   static const LogEvent event("ModesBasis");
   const LogEvent::Scope scope(event);
@@ -58,8 +69,18 @@ Eigen::Index ModesBasis::add(Columns x, double least) {
   Eigen::MatrixXd slides = Eigen::MatrixXd::Zero(closed, old + added);
   for (Eigen::Index k = 0; k < closed; ++k)
     if (const int place = body_.sliding_places()[static_cast<std::size_t>(k)]; place >= 0)
-      slides.row(k) = body_.direction() * shape_.row(place);
+      slides.row(k) =
+          body_.direction() * body_.closed()[static_cast<std::size_t>(k)].weight * shape_.row(place);
   problem_.friction = inner(comm, slides, reaction_);
+  if (depends_on_slip(comm, body_)) {
+    Eigen::MatrixXd there = Eigen::MatrixXd::Zero(closed, old + added), damped = there;
+    for (Eigen::Index k = 0; k < closed; ++k)
+      if (const int place = body_.sliding_places()[static_cast<std::size_t>(k)]; place >= 0) {
+        there.row(k) = shape_.row(place);
+        damped.row(k) = body_.slip_slope[static_cast<std::size_t>(k)] * shape_.row(place);
+      }
+    problem_.slip = inner(comm, there, damped);
+  }
   return added;
 }
 
@@ -94,6 +115,8 @@ ModesBasis::Residual ModesBasis::residual(const SlidingLaw& law, const SlidingMo
     force[k] = Complex(ku(k, 0), ku(k, 1)) + value.inertia * mass[k] * Complex(u(k, 0), u(k, 1));
   for (Eigen::Index k = 0; k < closed; ++k) lambda[k] = {reaction(k, 0), reaction(k, 1)};
   body_.add_friction(-value.friction, lambda, force);
+  body_.add_slip(
+      value.slip, [&](int k) { return Complex(u(k, 0), u(k, 1)); }, force);
   Residual found{Columns(u.rows(), 2), 0};
   found.force << force.real(), force.imag();
   const Column light = mass.cwiseInverse();

@@ -92,6 +92,20 @@ void read_sweeps(const Options& options, const Scene& scene, ModesChoice& choice
   };
   add(Of::coefficient, "coefficient", "1");
   const FrictionChoice& friction = scene.friction;
+  for (const char* name : {"modes_coefficient", "modes_load_speed"})
+    if (options.given(name) && friction.varies())
+      throw UserError(
+          "-" + std::string(name) +
+          " follows modes of one law of friction, but that of this scene varies along the contact; "
+          "run modes for each value");
+  if (friction.law == FrictionChoice::Law::exponential) {
+    for (const char* name : {"modes_coefficient", "modes_time", "modes_load_speed"})
+      if (options.given(name))
+        throw UserError("-" + std::string(name) +
+                        " follows modes whose friction depends on pressure alone, but that of -friction_law "
+                        "exponential depends on the slip rate; run modes for each value");
+    return;
+  }
   if (friction.law != FrictionChoice::Law::regularized)
     options.refuse_idle({"modes_time", "modes_load_speed"},
                         {"without a memory of friction", "give -friction_law regularized", {"friction_law"}});

@@ -42,18 +42,21 @@ bool correct(const ReducedProblem& problem, const SlidingLaw& law,
   double previous = std::numeric_limits<double>::infinity();
   ReducedMode now = mode;
   for (int step = 0; step < most_corrections; ++step) {
-    const Eigen::VectorXcd kx = problem.stiffness * now.vector, gx = problem.friction * now.vector;
-    const Complex stiff = left.dot(kx), inertia = left.dot(now.vector), friction = left.dot(gx);
+    const Eigen::VectorXcd kx = problem.stiffness * now.vector, gx = problem.friction * now.vector,
+                           dx = problem.slip_of(now.vector);
+    const Complex stiff = left.dot(kx), inertia = left.dot(now.vector), friction = left.dot(gx),
+                  slip = left.dot(dx);
     Complex change = 0;
     for (int newton = 0; newton < 3; ++newton) {
       const SlidingLaw::Value value = law.at(now.exponent), slope = law.slope_at(now.exponent);
-      const Complex part = (stiff + value.inertia * inertia - value.friction * friction) /
-                           (slope.inertia * inertia - slope.friction * friction);
+      const Complex part = (stiff + value.inertia * inertia - value.friction * friction + value.slip * slip) /
+                           (slope.inertia * inertia - slope.friction * friction + slope.slip * slip);
       now.exponent -= part;
       change += part;
     }
     const SlidingLaw::Value value = law.at(now.exponent);
-    const Eigen::VectorXcd correction = factor.solve(kx + value.inertia * now.vector - value.friction * gx);
+    const Eigen::VectorXcd correction =
+        factor.solve(kx + value.inertia * now.vector - value.friction * gx + value.slip * dx);
     now.vector = (now.vector - correction).eval().normalized();
     const double size = std::max(correction.norm(), std::abs(change) / std::abs(now.exponent));
     if (!(size < helps * previous)) return previous <= as_good;
@@ -72,6 +75,7 @@ std::vector<Eigen::MatrixXd> coefficients(const ReducedProblem& problem, const S
                         g = law.coefficient / (unit * unit) * problem.friction,
                         one = Eigen::MatrixXd::Identity(n, n), damping = a * one + b * k;
   std::vector<Eigen::MatrixXd> list{k - g, damping + t * k - b * g, one + t * damping};
+  if (problem.slip.size() > 0) list[1] += problem.slip / unit;
   if (t > 0) list.push_back(t * one);
   return list;
 }
@@ -81,6 +85,7 @@ std::vector<Eigen::MatrixXd> coefficients(const ReducedProblem& problem, const S
 Eigen::MatrixXcd ReducedProblem::matrix(const SlidingLaw& law, Complex p) const {
   const SlidingLaw::Value value = law.at(p);
   Eigen::MatrixXcd n = stiffness.cast<Complex>() - value.friction * friction;
+  if (slip.size() > 0) n += value.slip * slip;
   n.diagonal().array() += value.inertia;
   return n;
 }
@@ -119,8 +124,9 @@ ReducedMode nearest_mode(const ReducedProblem& problem, const SlidingLaw& law, C
   double previous = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     const SlidingLaw::Value slope = law.slope_at(mode.exponent);
-    const Eigen::VectorXcd right =
-        slope.inertia * mode.vector - slope.friction * (problem.friction * mode.vector);
+    const Eigen::VectorXcd right = slope.inertia * mode.vector -
+                                   slope.friction * (problem.friction * mode.vector) +
+                                   slope.slip * problem.slip_of(mode.vector);
     const Eigen::PartialPivLU<Eigen::MatrixXcd> factor(problem.matrix(law, mode.exponent));
     const Eigen::VectorXcd next = factor.solve(right);
     const Complex moved = mode.vector.dot(next);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "slipscale/base/print.hpp"
+#include "slipscale/dynamics/contact_places.hpp"
 #include "slipscale/dynamics/remarks.hpp"
 
 namespace slipscale {
@@ -93,8 +94,10 @@ SlidingLoads sliding_loads(MPI_Comm comm, const Model& model, const Scene& scene
   for (const BoundaryCondition& condition : scene.conditions)
     if (condition.is_straight()) loads.sides.push_back(plate_side(comm, model, condition));
   const ContactNodes& contact = body.contact();
+  const auto places = contact_places(mesh, *mesh.find_boundary(scene.surface->boundary));
   for (int k = 0; k < contact.size(); ++k)
-    loads.nodes.push_back({contact.node[k], contact.tributary_length[k], contact.clearance[k]});
+    loads.nodes.push_back({contact.node[k], contact.tributary_length[k], contact.clearance[k],
+                           steady_coefficient(scene, places[contact.node[k]])});
   return loads;
 }
 

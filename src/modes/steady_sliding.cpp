@@ -23,13 +23,13 @@ class Equilibrium {
  public:
   Equilibrium(MPI_Comm comm, const Model& model, const Scene& scene, const SlidingLoads& loads,
               const std::vector<char>& is_closed)
-      : comm_(comm), loads_(loads), friction_(scene.friction.coefficient), place_(loads.place) {
+      : comm_(comm), loads_(loads), friction_(reference_coefficient(scene)), place_(loads.place) {
     std::vector<char> held = loads.held;
     std::vector<ClosedNode> closed;
     for (std::size_t k = 0; k < loads.nodes.size(); ++k) {
       if (!is_closed[k]) continue;
       const SurfaceNode& at = loads.nodes[k];
-      closed.push_back({at.node, at.length});
+      closed.push_back({at.node, at.length, friction_ > 0 ? at.friction.value / friction_ : 1});
       held[2 * static_cast<std::size_t>(at.node) + 1] = 1;
       place_[at.node][1] = -at.clearance;
     }
@@ -156,13 +156,19 @@ SteadySliding result(MPI_Comm comm, const SlidingLoads& loads, const Scene& scen
   state.is_closed = is_closed;
   state.rounds = rounds;
   state.notes = loads.notes;
-  double normal = 0;
+  double normal = 0, tangential = 0;
   for (std::size_t k = 0; k < loads.nodes.size(); ++k) {
+    const SteadyCoefficient& friction = loads.nodes[k].friction;
     state.reaction.push_back(is_closed[k] ? std::max(0.0, found.reaction(loads.nodes[k].node)) : 0);
     normal += state.reaction.back();
+    tangential += friction.value * state.reaction.back();
+    if (is_closed[k] && scene.friction.law == FrictionChoice::Law::exponential)
+      found.body->slip_slope.push_back(friction.slope * state.reaction.back());
   }
   state.normal_force = sum_of(comm, normal);
-  state.tangential_force = found.body->direction() * scene.friction.coefficient * state.normal_force;
+  state.tangential_force =
+      found.body->direction() * (scene.friction.varies() ? sum_of(comm, tangential)
+                                                         : reference_coefficient(scene) * state.normal_force);
   state.in_contact = static_cast<PetscInt>(count_closed(comm, is_closed));
   auto all = static_cast<PetscInt>(loads.nodes.size());
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, comm);
@@ -178,6 +184,18 @@ void refuse_untouched(MPI_Comm comm, const Scene& scene, const std::vector<char>
                   "-boundary_<boundary>_y, _pressure or _force, or raise -surface_height");
 }
 
+/// One memory serves all nodes of a mode.
+void refuse_different_memories(const Mesh& mesh, const Scene& scene) {
+  const FrictionChoice& friction = scene.friction;
+  if (!friction.remembers()) return;
+  for (std::size_t r = 1; r < friction.phases.size(); ++r)
+    if (const FrictionConstants& one = friction.phases[0], &other = friction.phases[r];
+        friction.by_slip_rate ? one.length != other.length : one.time != other.time)
+      throw UserError("friction does not remember as long in region '" + mesh.regions[r].name + "' as in '" +
+                      mesh.regions[0].name +
+                      "', which modes do not know; give both the same -friction_time or -friction_length");
+}
+
 }  // namespace
 
 Scene read_sliding_scene(const Options& options, const Mesh& mesh) {
@@ -186,10 +204,15 @@ Scene read_sliding_scene(const Options& options, const Mesh& mesh) {
         "modes are those of a body that slides, and no surface is given; name the boundary that meets it "
         "with -surface_boundary");
   const Scene scene = read_scene(options, mesh);
-  if (const auto names = unsteady_formulas(scene); !names.empty())
+  refuse_different_memories(mesh, scene);
+  std::vector<std::string> names = unsteady_formulas(scene);
+  if (!scene.friction.of_time())  // a coefficient may vary along the contact
+    std::erase_if(names, [](const std::string& name) { return name.starts_with("friction_"); });
+  if (!names.empty())
     throw UserError("-" + names.front() +
                     " is a formula, but modes are those of a body that slides steadily and uniformly, where "
-                    "only pressure and shear may vary, along their boundaries; give a number");
+                    "only pressure, shear and the coefficient of friction may vary, along their boundaries; "
+                    "give a number");
   for (const BoundaryCondition& condition : scene.conditions)
     if (condition.absorbing)
       throw UserError(

@@ -52,7 +52,8 @@ SweepProblem::SweepProblem(const ModesBasis& basis, const std::vector<Eigen::Vec
   for (Eigen::Index k = 0; k < closed; ++k)
     if (const int place = body.sliding_places()[static_cast<std::size_t>(k)]; place >= 0) {
       const double light = 1 / std::sqrt(mass[place]);
-      gu.row(k) = light * body.direction() * reaction.row(k);
+      gu.row(k) =
+          light * body.direction() * body.closed()[static_cast<std::size_t>(k)].weight * reaction.row(k);
       there.row(k) = light * ku.row(place);
     }
   ku.array().colwise() /= mass.array().sqrt();
@@ -63,7 +64,8 @@ SweepProblem::SweepProblem(const ModesBasis& basis, const std::vector<Eigen::Vec
 
 double SweepProblem::residual(const SlidingLaw& law, const ReducedMode& mode) const {
   const Eigen::VectorXcd& y = mode.vector;
-  const auto [q, g] = law.at(mode.exponent);
+  const SlidingLaw::Value value = law.at(mode.exponent);
+  const Complex q = value.inertia, g = value.friction;
   const double stiff = y.dot(stiff_ * y).real(), inertia = std::norm(q) * y.squaredNorm();
   const Complex crossed = q * y.dot(problem_.stiffness * y) - std::conj(g) * y.dot(beside_ * y) -
                           std::conj(g) * q * y.dot(problem_.friction.transpose() * y);

@@ -35,7 +35,7 @@ void rename_or_throw(const std::string& from, const std::string& to) {
 }
 
 /// Of what a checkpoint holds, for a program that expects another to say so.
-constexpr const char* format_of_checkpoints = "2";
+constexpr const char* format_of_checkpoints = "3";
 
 /// A folder by the name of one of the files would stop the next checkpoint.
 void refuse_folders(const std::string& folder) {
@@ -96,11 +96,11 @@ bool can_go_on(const std::string& folder) {
 }
 
 SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials,
-                       const std::string& run) {
+                       const std::string& run, const std::string& initial) {
   auto effective = options.effective();
   for (const char* of_the_job : {"restart", "time_wall", "progress"}) effective.erase(of_the_job);
   return {run_yaml(effective, [](Yaml& yaml) { yaml.text("program", "slide"); }),
-          checksum_text(mesh.checksum), materials_checksum(materials), run};
+          checksum_text(mesh.checksum), materials_checksum(materials), run, initial};
 }
 
 void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks& marks,
@@ -115,6 +115,7 @@ void write_checkpoint(MPI_Comm comm, const std::string& folder, const SceneMarks
       write_attribute(root, "mesh_checksum", marks.mesh);
       write_attribute(root, "materials_checksum", marks.materials);
       write_attribute(root, "run", marks.run);
+      if (!marks.initial.empty()) write_attribute(root, "initial_checksum", marks.initial);
     });
     write_state(comm, file, groups);
     file.finish();
@@ -147,8 +148,9 @@ Restart::Restart(MPI_Comm comm, const std::string& folder) : comm_(comm), folder
     mesh_ = read_text(file_, "mesh_checksum");
     materials_ = read_text(file_, "materials_checksum");
     run_ = read_text(file_, "run");
+    if (H5Aexists(file_, "initial_checksum") > 0) initial_ = read_text(file_, "initial_checksum");
   });
-  for (std::string* text : {&path_, &note_, &mesh_, &materials_, &run_})
+  for (std::string* text : {&path_, &note_, &mesh_, &materials_, &run_, &initial_})
     *text = text_on_all(std::move(*text));
   double carried[5] = {};
   StateGroup body{"body", {0}, 0, is_root(comm), {{"carried", "", "", 5, carried}}};
@@ -160,6 +162,7 @@ void Restart::expect_files() const {
   on_root(comm_, folder_, [&] {
     std::vector<std::string> expected{"history.h5", "summary.yaml"};
     if (position_.contact_rows > 0) expected.push_back("contact.h5");
+    if (position_.interface_rows > 0) expected.push_back("interfaces.h5");
     if (position_.frames > 0) expected.push_back("fields.h5");
     for (const std::string& file : expected)
       if (!fs::exists(fs::path(folder_) / file))
@@ -168,7 +171,8 @@ void Restart::expect_files() const {
   });
 }
 
-void Restart::check(const Mesh& mesh, const std::vector<Material>& materials) const {
+void Restart::check(const Mesh& mesh, const std::vector<Material>& materials,
+                    const std::string& initial) const {
   if (checksum_text(mesh.checksum) != mesh_)
     throw UserError("-restart: the mesh '" + mesh.file + "' has the checksum " +
                     checksum_text(mesh.checksum) + ", but the run in '" + folder_ + "' began with " + mesh_ +
@@ -176,6 +180,9 @@ void Restart::check(const Mesh& mesh, const std::vector<Material>& materials) co
   if (materials_checksum(materials) != materials_)
     throw UserError("-restart: stiffness or density of a region is not what the run in '" + folder_ +
                     "' began with; put back the file that -material_..._file names, or start a new run");
+  if (initial != initial_)
+    throw UserError("-restart: what -initial_file holds is not what the run in '" + folder_ +
+                    "' began with; put back that file, or start a new run");
 }
 
 TimeStep Restart::time_step(double end) const {

@@ -25,6 +25,7 @@ std::vector<XdmfAttribute> attributes(const FieldQuantities& quantities, bool wi
   if (quantities.von_mises && with_zz) shown.push_back({"von_mises", cell, "von_mises", {}});
   for (const char* value : {"principal_high", "principal_low"})
     if (quantities.principal) shown.push_back({value, cell, value, {}});
+  if (quantities.damping_work) shown.push_back({"damping_work", cell, "damping_work", {}});
   shown.push_back(xdmf_region());
   return shown;
 }
@@ -54,14 +55,16 @@ FieldQuantities field_quantities(const std::string& list, const std::string& opt
       {"stress", &FieldQuantities::stress},
       {"strain", &FieldQuantities::strain},
       {"von_mises", &FieldQuantities::von_mises},
-      {"principal", &FieldQuantities::principal}};
+      {"principal", &FieldQuantities::principal},
+      {"damping_work", &FieldQuantities::damping_work}};
   std::istringstream words(list);
   for (std::string word; std::getline(words, word, ',');) {
     const auto found = std::find_if(std::begin(known), std::end(known),
                                     [&](const auto& each) { return each.first == word; });
     if (found == std::end(known))
       throw UserError("-" + option + " has '" + word +
-                      "'; give a list of u, v, stress, strain, von_mises and principal, like u,stress");
+                      "'; give a list of u, v, stress, strain, von_mises, principal and damping_work, like "
+                      "u,stress");
     quantities.*found->second = true;
   }
   return quantities;
@@ -151,6 +154,7 @@ void FieldsFile::check_frame(hid_t file, const std::string& group) const {
   expect(quantities_.von_mises && with_zz, "von_mises", {cells}, "Pa");
   for (const char* value : {"principal_high", "principal_low"})
     expect(quantities_.principal, value, {cells}, "Pa");
+  expect(quantities_.damping_work, "damping_work", {cells}, "J/m^3");
   if (links_of(file, group).size() != expected) throw LibraryError("'" + group + "' holds other quantities");
 }
 
@@ -178,7 +182,7 @@ double FieldsFile::bytes(double frames) const {
 }
 
 void FieldsFile::write(double time, const double* u, const double* v, const double* stress,
-                       const double* strain) {
+                       const double* strain, const double* damping_work) {
   cut_back();
   const std::string frame = frame_path(frames());
   file_->reserve(bytes(1));
@@ -186,6 +190,10 @@ void FieldsFile::write(double time, const double* u, const double* v, const doub
   if (quantities_.v) write_nodal({frame + "v", "m/s", "velocity of the points; x, y and 0"}, v);
   if (quantities_.of_stress()) write_stress(frame, stress);
   if (quantities_.strain) write_strain(frame, strain);
+  if (quantities_.damping_work)
+    slipscale::write_on_cells(*file_, image_,
+                              {frame + "damping_work", "J/m^3", "energy that bulk damping took since t = 0"},
+                              {}, [&](int cell, double* row) { *row = damping_work[cell]; });
   file_->append("/time", time);
   file_->flush();
   contents_.push_back(with_time(file_->take_contents(), time));
@@ -257,7 +265,8 @@ double fields_bytes(double frames, std::int64_t points, std::int64_t cells,
   const double vector = 3 * sizeof(double);
   const double of_cell =
       (quantities.stress + quantities.strain) * vector +
-      (quantities.stress + quantities.von_mises + 2 * quantities.principal) * sizeof(double);
+      (quantities.stress + quantities.von_mises + 2 * quantities.principal + quantities.damping_work) *
+          sizeof(double);
   const double frame = (quantities.u + quantities.v) * vector * static_cast<double>(points) +
                        of_cell * static_cast<double>(cells) + group_overhead;
   return frames * frame + mesh_bytes(static_cast<double>(points), static_cast<double>(cells)) +

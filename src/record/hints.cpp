@@ -17,7 +17,7 @@ constexpr double far_below = 0.5;     ///< of the limit
 constexpr double least_edges = 2;     ///< that the memory has to span; one is marginal
 
 bool same(const Material& one, const Material& other) {
-  return one.stiffness == other.stiffness && one.density == other.density;
+  return !one.grading && !other.grading && one.stiffness == other.stiffness && one.density == other.density;
 }
 
 /// Two regions that could be one.
@@ -71,7 +71,7 @@ struct Memory {
 
 /// All zero without friction that remembers. Collective.
 Memory memory_of(const SlidingBody& body) {
-  if (!body.scene().surface || body.scene().friction.law != FrictionChoice::Law::regularized) return {};
+  if (!body.scene().surface || !body.scene().friction.remembers()) return {};
   const double time = shortest_memory(body.scene().friction, body.scene().surface->speed);
   if (!(time > 0) || !std::isfinite(time)) return {};
   double slowest = std::numeric_limits<double>::infinity();
@@ -113,20 +113,24 @@ std::string dear_outputs(const SlidingBody& body, const TimeStep& step, const Re
       record.fields.given() ? rows(record.fields, 0) : static_cast<double>(record.fields_times.size());
   const double history = rows(record.history, 0) * cost.history;
   const double contact = rows(record.contact, std::min(steps, 1000.0)) * cost.contact;
-  const double fields = frames * cost.fields, all = history + contact + fields;
+  const double interfaces =
+      record.interfaces ? rows(record.interface_rows, std::min(steps, 1000.0)) * cost.interfaces : 0;
+  const double fields = frames * cost.fields, all = history + contact + fields + interfaces;
   const double part = all / (all + steps * cost.step);
   if (all < worth_saying || part <= large_part) return "";
-  const double most = std::max({history, contact, fields});
+  const double most = std::max({history, contact, fields, interfaces});
   const std::string which = most == history   ? "history.h5, fewer rows with -history_every"
                             : most == contact ? "contact.h5, fewer rows with -contact_every"
-                                              : "fields.h5, fewer frames with -fields_every";
+                            : most == fields  ? "fields.h5, fewer frames with -fields_every"
+                                              : "interfaces.h5, fewer rows with -interfaces_every";
   return format("outputs take about {:.0f} % of the run, most of it {}", 100 * part, which);
 }
 
 }  // namespace
 
 OutputCosts output_costs(double nodes, double contact_nodes) {
-  return {5e-9 * nodes, 12e-6 + 7e-9 * nodes, 5e-6 + 0.25e-6 * contact_nodes, 0.7e-3 + 3e-7 * nodes};
+  return {5e-9 * nodes, 12e-6 + 7e-9 * nodes, 5e-6 + 0.25e-6 * contact_nodes, 0.7e-3 + 3e-7 * nodes,
+          30e-6 + 20e-9 * nodes};
 }
 
 std::vector<std::string> hints_at_start(const SlidingBody& body, const TimeStep& step,

@@ -1,5 +1,6 @@
 #include "slipscale/record/history.hpp"
 
+#include <array>
 #include <limits>
 #include <map>
 
@@ -132,7 +133,8 @@ void HistoryFile::write_momentum(const Observation& seen) {
       for (const double value : pair) file_.append(*column++, value);
 }
 
-ContactFile::ContactFile(const std::string& path, const Observer& observer, double rows,
+ContactFile::ContactFile(const std::string& path, const Observer& observer,
+                         const std::vector<std::string>& regions, bool sums, double rows,
                          std::optional<SeriesFile::Continue> continued)
     : file_(path, between_batches, rows, continued), length_(observer.tributary_length()) {
   const hsize_t nodes = observer.contact_x().size();
@@ -141,6 +143,12 @@ ContactFile::ContactFile(const std::string& path, const Observer& observer, doub
   file_.constant("/y", observer.contact_y().data(), {nodes}, "m", "their heights in the undeformed body");
   file_.constant("/tributary_length", length_.data(), {nodes}, "m",
                  "length of the boundary that belongs to each node");
+  std::string names;
+  for (const std::string& name : regions) names += (names.empty() ? "" : "\n") + name;
+  file_.about("regions", names);
+  file_.constant("/region_share", observer.region_shares().data(), {nodes, regions.size()}, "1",
+                 "part of that length that belongs to each of the regions, which an attribute of the file "
+                 "names");
   time_ = file_.add("/time", {}, "s", "time of the row");
   u_ = file_.add("/u", {nodes, 2}, "m", "displacement");
   v_y_ = file_.add("/v_y", {nodes}, "m/s", "velocity along +y");
@@ -154,6 +162,22 @@ ContactFile::ContactFile(const std::string& path, const Observer& observer, doub
                 "what the friction law remembers: the stored strength (regularised threshold), or the "
                 "tangential traction of the step; 0 where open");
   status_ = file_.add("/status", {nodes}, "1", "0 open, 1 stick, 2 slip", SeriesFile::Storage::byte);
+  if (!sums) return;
+  const std::array<std::array<const char*, 3>, 7> quantities{
+      {{"friction_work", "J/m^2",
+        "heat of friction; times the tributary length, over all nodes: "
+        "/energy/friction_heat of history.h5"},
+       {"impact_loss", "J/m^2", "energy lost where the node met the surface, likewise /energy/impact_loss"},
+       {"slip_distance", "m",
+        "way that the surface slipped along the node while they touched, forth and "
+        "back alike"},
+       {"pressure_slip", "Pa m", "pressure times slip distance, step by step: what Archard's law asks for"},
+       {"time_closed", "s", "time in contact"},
+       {"impulse", "Pa s", "normal impulse"},
+       {"closures", "1", "times that the node came into contact, at the start as well"}}};
+  for (const auto& [name, units, text] : quantities)
+    sums_.push_back(file_.add(std::string("/sums/") + name, {nodes}, units,
+                              std::string(text) + "; over every step since t = 0"));
 }
 
 void ContactFile::write(const Observation& seen, double surface_velocity) {
@@ -181,6 +205,11 @@ void ContactFile::write(const Observation& seen, double surface_velocity) {
   file_.append(tangential_, tangential_row_.data());
   file_.append(strength_, strength_row_.data());
   file_.append(status_, status_row_.data());
+  for (std::size_t q = 0; q < sums_.size(); ++q) {
+    sums_row_.clear();
+    for (const ContactReading& node : seen.contact) sums_row_.push_back((&node.totals.friction_work)[q]);
+    file_.append(sums_[q], sums_row_.data());
+  }
   file_.end_row();
 }
 

@@ -14,6 +14,14 @@ std::vector<PetscInt> numbers_of(const Mesh& mesh, const std::vector<int>& nodes
   return numbers;
 }
 
+/// [regions]
+std::vector<double> shares_of(const ContactPlace& place, std::size_t regions) {
+  std::vector<double> shares(regions, 0);
+  shares[place.region[0]] = 1 - place.second;
+  shares[place.region[1]] += place.second;
+  return shares;
+}
+
 }  // namespace
 
 Directions directions_of(const Boundary& boundary) {
@@ -43,17 +51,24 @@ Observer::Observer(const SlidingBody& body, bool momentum) : body_(body), moment
   const ContactNodes& contact = body.contact();
   contact_gather_ = OrderedGather(body.comm(), numbers_of(mesh, contact.node));
   std::vector<double> place;
-  for (int k = 0; k < contact.size(); ++k)
+  for (int k = 0; k < contact.size(); ++k) {
     place.insert(place.end(), {mesh.nodes.position[contact.node[k]][0],
                                mesh.nodes.position[contact.node[k]][1], contact.tributary_length[k]});
-  const auto all = contact_gather_(place, 3);
-  along_x_.resize(all.size() / 3);
+    const auto shares = shares_of(body.contact_places()[k], mesh.regions.size());
+    place.insert(place.end(), shares.begin(), shares.end());
+  }
+  const std::size_t width = 3 + mesh.regions.size();
+  const auto all = contact_gather_(place, static_cast<int>(width));
+  along_x_.resize(all.size() / width);
   std::iota(along_x_.begin(), along_x_.end(), 0);
-  std::stable_sort(along_x_.begin(), along_x_.end(), [&](int a, int b) { return all[3 * a] < all[3 * b]; });
-  for (int row : along_x_) {
-    contact_x_.push_back(all[3 * row]);
-    contact_y_.push_back(all[3 * row + 1]);
-    contact_length_.push_back(all[3 * row + 2]);
+  const auto row_of = [&](int k) { return all.begin() + static_cast<std::ptrdiff_t>(width) * k; };
+  std::stable_sort(along_x_.begin(), along_x_.end(), [&](int a, int b) { return *row_of(a) < *row_of(b); });
+  for (const int k : along_x_) {
+    const auto row = row_of(k);
+    contact_x_.push_back(row[0]);
+    contact_y_.push_back(row[1]);
+    contact_length_.push_back(row[2]);
+    contact_shares_.insert(contact_shares_.end(), row + 3, row + static_cast<std::ptrdiff_t>(width));
   }
 }
 
@@ -110,7 +125,9 @@ void Observer::observe_plates(Observation& seen) const {
 
 void Observer::observe_contact(Observation& seen) const {
   const ContactNodes& contact = body_.contact();
-  constexpr int width = 9;
+  static_assert(sizeof(ContactTotals) == 7 * sizeof(double));
+  const bool with_totals = body_.keeps_contact_sums();
+  const int width = with_totals ? 16 : 9;
   std::vector<double> mine;
   mine.reserve(static_cast<std::size_t>(contact.size()) * width);
   for (int k = 0; k < contact.size(); ++k) {
@@ -118,6 +135,9 @@ void Observer::observe_contact(Observation& seen) const {
     mine.insert(mine.end(),
                 {u[0], u[1], v[0], v[1], contact.clearance_now(k) + u[1], contact.memory[k].traction,
                  contact.traction[k], contact.force[k][1], static_cast<double>(contact.status[k])});
+    if (!with_totals) continue;
+    const ContactTotals totals = body_.contact_totals(k);
+    mine.insert(mine.end(), &totals.friction_work, &totals.friction_work + 7);
   }
   const auto all = contact_gather_(mine, width);
   const double surface = body_.surface_velocity();
@@ -125,13 +145,14 @@ void Observer::observe_contact(Observation& seen) const {
   seen.contact.reserve(along_x_.size());
   for (std::size_t k = 0; k < along_x_.size(); ++k) {
     const double *row = &all[static_cast<std::size_t>(along_x_[k]) * width], length = contact_length_[k];
-    const ContactReading reading{{row[0], row[1]},
-                                 {row[2], row[3]},
-                                 row[4],
-                                 row[5],
-                                 row[6],
-                                 row[7],
-                                 static_cast<ContactStatus>(row[8])};
+    ContactReading reading{{row[0], row[1]},
+                           {row[2], row[3]},
+                           row[4],
+                           row[5],
+                           row[6],
+                           row[7],
+                           static_cast<ContactStatus>(row[8])};
+    if (with_totals) reading.totals = {row[9], row[10], row[11], row[12], row[13], row[14], row[15]};
     const double force = reading.traction * length;
     seen.surface.normal += reading.normal_force;
     seen.surface.tangential += force;

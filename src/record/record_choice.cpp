@@ -76,12 +76,13 @@ void read_fields(const Options& options, RecordChoice& choice) {
 std::optional<StatisticsChoice> read_statistics(const Options& options) {
   const auto from = options.find_real("statistics_from");
   if (!from) {
-    options.refuse_idle({"statistics_to", "statistics_every", "statistics_quantile"},
+    options.refuse_idle({"statistics_to", "statistics_every", "statistics_quantile", "statistics_damping"},
                         {"without -statistics_from", "give the start of the window"});
     return std::nullopt;
   }
   return StatisticsChoice{*from, options.find_real("statistics_to"),
-                          steps_or_auto(options, "statistics_every"), options.real("statistics_quantile")};
+                          steps_or_auto(options, "statistics_every"), options.real("statistics_quantile"),
+                          options.flag("statistics_damping")};
 }
 
 }  // namespace
@@ -96,63 +97,100 @@ long Cadence::steps(double step, long otherwise) const {
 }
 
 Schema record_schema() {
-  return {
-      {"output_folder", Kind::text, "", "out", range::any,
-       "folder of the run; an older run in it is replaced once the scene has proved right, and kept in its "
-       "folder `replaced` if it was interrupted and could go on"},
-      {"history_every", Kind::integer, "1", "10", range::at_least_one,
-       "steps between the rows of history.h5"},
-      {"history_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of history_every; rounded to whole steps"},
-      {"history_points", Kind::reals, "m", absent, range::any,
-       "points x1,y1,x2,y2,... whose u, v and stress are followed"},
-      {"history_momentum",
-       Kind::flag,
-       "",
-       "false",
-       {},
-       "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
-      {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
-       "steps between the rows of contact.h5; auto makes about a thousand rows, and a restart with a later "
-       "end "
-       "keeps their distance"},
-      {"contact_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of contact_every; rounded to whole steps"},
-      {"fields_every", Kind::integer, "1", absent, range::at_least_one,
-       "steps between the frames of fields.h5"},
-      {"fields_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of fields_every; rounded to whole steps"},
-      {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
-      {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
-       "what a frame holds: some of u,v,stress,strain,von_mises,principal"},
-      {"fields_box", Kind::reals, "m", absent, range::any,
-       "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
-      {"statistics_from", Kind::real, "s", absent, range::non_negative,
-       "start of the window over which statistics.h5 takes means, extremes and quantiles of stress and "
-       "strain"},
-      {"statistics_to", Kind::real, "s", absent, range::non_negative,
-       "end of that window; the end of the run when not given"},
-      {"statistics_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
-       "samples are the multiples of this step in the window; auto takes about a thousand"},
-      {"statistics_quantile", Kind::real, "1", "0.99", at_least_half,
-       "part of the samples that lies below quantile_high, and above quantile_low"},
-      {"checkpoint_minutes", Kind::real, "min", "15", range::non_negative,
-       "wall time between checkpoints, from which -restart goes on; the last two are kept, one more is left "
-       "at "
-       "the end; 0 writes none, but at a signal"},
-      {"checkpoint_every", Kind::integer, "1", absent, range::at_least_one,
-       "steps between checkpoints, besides those by time"},
-      {"time_wall", Kind::real, "min", absent, range::positive,
-       "wall time after which the run must have ended: it stops before, with a checkpoint and exit code 3"},
-      {"restart", Kind::text, "", absent, range::any,
-       "output folder of a run to go on with, on any number of ranks: alone, or with a later -time_end, "
-       "other "
-       "steps or intervals of output, -checkpoint_... and -time_wall"},
-      {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
-       "auto shows a line of progress when the output is a terminal"},
-      {"run_<entry>", Kind::text, "", absent, range::any,
-       "facts that run.yaml carries; ignored when it is read again"},
-  };
+  return interface_schema() +
+         Schema{
+             {"interfaces_every", Kind::text, "1", "auto",
+              range::one_of_or_number({"auto"}, range::at_least_one),
+              "steps between the rows of interfaces.h5; auto makes about a thousand rows, and a restart with "
+              "a later "
+              "end keeps their distance"},
+             {"interfaces_interval", Kind::real, "s", absent, range::positive,
+              "time between them, in place of interfaces_every; rounded to whole steps"},
+             {"output_folder", Kind::text, "", "out", range::any,
+              "folder of the run; an older run in it is replaced once the scene has proved right, and kept "
+              "in its "
+              "folder `replaced` if it was interrupted and could go on"},
+             {"history_every", Kind::integer, "1", "10", range::at_least_one,
+              "steps between the rows of history.h5"},
+             {"history_interval", Kind::real, "s", absent, range::positive,
+              "time between them, in place of history_every; rounded to whole steps"},
+             {"history_points", Kind::reals, "m", absent, range::any,
+              "points x1,y1,x2,y2,... whose u, v and stress are followed"},
+             {"history_momentum",
+              Kind::flag,
+              "",
+              "false",
+              {},
+              "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
+             {"contact_every", Kind::text, "1", "auto",
+              range::one_of_or_number({"auto"}, range::at_least_one),
+              "steps between the rows of contact.h5; auto makes about a thousand rows, and a restart with a "
+              "later "
+              "end "
+              "keeps their distance"},
+             {"contact_interval", Kind::real, "s", absent, range::positive,
+              "time between them, in place of contact_every; rounded to whole steps"},
+             {"contact_sums",
+              Kind::flag,
+              "",
+              "true",
+              {},
+              "whether contact.h5 has friction work, slip distance, time closed, impulse and closures of "
+              "each node, "
+              "summed over every step and not only those of its rows; slipscale wear reads them"},
+             {"fields_every", Kind::integer, "1", absent, range::at_least_one,
+              "steps between the frames of fields.h5"},
+             {"fields_interval", Kind::real, "s", absent, range::positive,
+              "time between them, in place of fields_every; rounded to whole steps"},
+             {"fields_times", Kind::reals, "s", absent, range::any,
+              "times of the frames, in place of fields_every"},
+             {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
+              "what a frame holds: some of u,v,stress,strain,von_mises,principal,damping_work; the last, "
+              "energy "
+              "that bulk damping took in each cell since t = 0, is summed cell by cell at every step, which "
+              "slows "
+              "the run"},
+             {"fields_box", Kind::reals, "m", absent, range::any,
+              "x1,y1,x2,y2: a frame holds only the cells whose centres lie in this rectangle"},
+             {"statistics_from", Kind::real, "s", absent, range::non_negative,
+              "start of the window over which statistics.h5 takes means, extremes and quantiles of stress "
+              "and "
+              "strain"},
+             {"statistics_to", Kind::real, "s", absent, range::non_negative,
+              "end of that window; the end of the run when not given"},
+             {"statistics_every", Kind::text, "1", "auto",
+              range::one_of_or_number({"auto"}, range::at_least_one),
+              "samples are the multiples of this step in the window; auto takes about a thousand"},
+             {"statistics_quantile", Kind::real, "1", "0.99", at_least_half,
+              "part of the samples that lies below quantile_high, and above quantile_low"},
+             {"statistics_damping",
+              Kind::flag,
+              "",
+              "false",
+              {},
+              "whether statistics.h5 has the mean power of bulk damping in each cell; summed at every step, "
+              "which "
+              "slows the run"},
+             {"checkpoint_minutes", Kind::real, "min", "15", range::non_negative,
+              "wall time between checkpoints, from which -restart goes on; the last two are kept, one more "
+              "is left "
+              "at "
+              "the end; 0 writes none, but at a signal"},
+             {"checkpoint_every", Kind::integer, "1", absent, range::at_least_one,
+              "steps between checkpoints, besides those by time"},
+             {"time_wall", Kind::real, "min", absent, range::positive,
+              "wall time after which the run must have ended: it stops before, with a checkpoint and exit "
+              "code 3"},
+             {"restart", Kind::text, "", absent, range::any,
+              "output folder of a run to go on with, on any number of ranks: alone, or with a later "
+              "-time_end, "
+              "other "
+              "steps or intervals of output, -checkpoint_... and -time_wall"},
+             {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
+              "auto shows a line of progress when the output is a terminal"},
+             {"run_<entry>", Kind::text, "", absent, range::any,
+              "facts that run.yaml carries; ignored when it is read again"},
+         };
 }
 
 RecordChoice read_record(const Options& options) {
@@ -163,11 +201,17 @@ RecordChoice read_record(const Options& options) {
   });
   choice.points = read_points(options);
   choice.momentum = options.flag("history_momentum");
-  if (has_surface(options))
+  if (has_surface(options)) {
     choice.contact = read_cadence(options, "contact",
                                   [&](const std::string& name) { return steps_or_auto(options, name); });
-  else
-    options.refuse_idle({"contact_every", "contact_interval"}, without_surface);
+    choice.contact_sums = options.flag("contact_sums");
+  } else {
+    options.refuse_idle({"contact_every", "contact_interval", "contact_sums"}, without_surface);
+  }
+  choice.interfaces = read_interfaces(options, {"interfaces_every", "interfaces_interval"});
+  if (choice.interfaces)
+    choice.interface_rows = read_cadence(
+        options, "interfaces", [&](const std::string& name) { return steps_or_auto(options, name); });
   read_fields(options, choice);
   choice.statistics = read_statistics(options);
   choice.progress = options.text("progress");

@@ -49,8 +49,14 @@ std::optional<StatisticsWindow> window_of(const RecordChoice& choice, const Time
   return statistics_window(*choice.statistics, time);
 }
 
-/// The choice, once it is sure that the box it may have holds a part of the body. Collective.
+/// The choice, once it is sure that the box it may have holds a part of the body, and that there is damping
+/// where it asks for its work. Collective.
 const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice) {
+  if (choice.cell_damping() && !body.keeps_cell_damping())
+    throw UserError(
+        std::string(choice.quantities.damping_work ? "-fields_quantities has damping_work"
+                                                   : "-statistics_damping is true") +
+        ", but nothing damps the body; give -damping_stiffness or -damping_mass, or leave it out");
   if (!choice.fields_box) return choice;
   const Mesh& mesh = body.model().mesh;
   const auto inside = cells_in(mesh.cells, *choice.fields_box);
@@ -69,21 +75,26 @@ const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice)
 std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& choice) {
   if (!choice.quantities.stress && !choice.quantities.von_mises) return {};
   std::vector<double> of_region;
-  for (std::size_t r = 0; r < model.materials.size(); ++r) {
-    of_region.push_back(transverse_ratio(model.materials[r]));
-    if (choice.quantities.von_mises && std::isnan(of_region.back()))
-      throw UserError(
-          "-fields_quantities has von_mises, but the stiffness of region '" + model.mesh.regions[r].name +
-          "' is not isotropic and does not tell the stress across the plane; leave von_mises out");
-  }
+  for (const Material& material : model.materials) of_region.push_back(transverse_ratio(material));
   std::vector<double> of_cell;
-  for (const int region : model.mesh.cells.region) of_cell.push_back(of_region[region]);
+  std::string fault;
+  for (int cell = 0; cell < model.mesh.cells.size(); ++cell) {
+    const int region = model.mesh.cells.region[cell];
+    const Solid solid = model.materials[region].at(cell);
+    const bool graded = model.materials[region].grading != nullptr;
+    of_cell.push_back(graded ? transverse_ratio({solid.stiffness, solid.density, ""}) : of_region[region]);
+    if (fault.empty() && choice.quantities.von_mises && std::isnan(of_cell.back()))
+      fault = "-fields_quantities has von_mises, but the stiffness of region '" +
+              model.mesh.regions[region].name +
+              "' is not isotropic and does not tell the stress across the plane; leave von_mises out";
+  }
+  throw_together(model.mesh.comm, fault);
   return of_cell;
 }
 
 /// About a thousand rows, or what the run before a restart made of that, whatever its end is now.
-long contact_cadence(const RunPosition& before, const TimeStep& time) {
-  return before.contact_auto != 0 ? static_cast<long>(before.contact_every) : std::max(1L, time.count / 1000);
+long thousand_rows(double by_itself, double before, const TimeStep& time) {
+  return by_itself != 0 ? static_cast<long>(before) : std::max(1L, time.count / 1000);
 }
 
 /// Whether the force of every step is kept beside rows that are sparser: from the start on, or not at all.
@@ -99,16 +110,20 @@ std::string new_run() {
 }
 
 std::vector<std::string> files_of_a_run() {
-  return {"run.yaml",          "summary.yaml",      "history.h5",      "contact.h5", "fields.h5",
-          "fields.xdmf",       "statistics.h5",     "statistics.xdmf", "fault.h5",   "fault.xdmf",
-          checkpoint_names[0], checkpoint_names[1], checkpoint_next};
+  return {"run.yaml",        "summary.yaml",      "history.h5",        "contact.h5",
+          "fields.h5",       "fields.xdmf",       "statistics.h5",     "statistics.xdmf",
+          "fault.h5",        "fault.xdmf",        "interfaces.h5",     "interfaces.xdmf",
+          "interfaces.yaml", checkpoint_names[0], checkpoint_names[1], checkpoint_next};
+}
+
+Eigen::Matrix3d compliance(const Eigen::Matrix3d& stiffness) {
+  return stiffness.llt().solve(Eigen::Matrix3d::Identity());
 }
 
 /// Of each region, 1/Pa.
 std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
   std::vector<Eigen::Matrix3d> found;
-  for (const Material& material : materials)
-    found.push_back(material.stiffness.llt().solve(Eigen::Matrix3d::Identity()));
+  for (const Material& material : materials) found.push_back(compliance(material.stiffness));
   return found;
 }
 
@@ -124,13 +139,17 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       last_(time.count),
       history_every_(choice.history.steps(time.step, 1)),
       has_contact_(body.scene().surface.has_value()),
-      contact_every_(choice.contact.steps(time.step, contact_cadence(position_, time))),
+      contact_every_(choice.contact.steps(
+          time.step, thousand_rows(position_.contact_auto, position_.contact_every, time))),
+      interfaces_every_(choice.interface_rows.steps(
+          time.step, thousand_rows(position_.interfaces_auto, position_.interfaces_every, time))),
       fields_every_(choice.fields.given() ? std::optional(choice.fields.steps(time.step, 1)) : std::nullopt),
       field_steps_(steps_of(choice.fields_times, time)),
       transverse_(transverse_of_cells(body.model(), choice)),
       window_(window_of(choice, time, restart)),
       observer_(body, choice.momentum),
       probes_(body.comm(), body.model(), choice.points),
+      interfaces_(choice.interfaces ? std::make_unique<InterfaceRecord>(body, *choice.interfaces) : nullptr),
       keeps_force_(keeps_force(position_, history_every_, restart != nullptr)),
       force_(body, keeps_force_ ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run(), can_go_on),
@@ -156,23 +175,35 @@ void Recorder::open_files(const Restart* restart) {
                                            choice_.quantities, "fields", transverse_, frames);
   }
   if (window_)
-    statistics_ = std::make_unique<StressStatistics>(comm, mesh, *window_, choice_.statistics->quantile);
+    statistics_ = std::make_unique<StressStatistics>(comm, mesh, *window_, choice_.statistics->quantile,
+                                                     choice_.statistics->damping);
   if (is_root(comm)) {
     history_ = std::make_unique<HistoryFile>(folder_.path("history.h5"), body_, probes_.positions(),
                                              choice_.momentum, rows(history_every_),
                                              continued(position_.history_rows));
     if (has_contact_)
-      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, rows(contact_every_),
+      contact_ = std::make_unique<ContactFile>(folder_.path("contact.h5"), observer_, mesh.region_names(),
+                                               choice_.contact_sums, rows(contact_every_),
                                                continued(position_.contact_rows));
+    if (interfaces_)
+      interfaces_file_ = std::make_unique<InterfacesFile>(
+          folder_.path("interfaces.h5"), interfaces_->inclusions(), *choice_.interfaces,
+          std::vector<std::string>{""}, rows(interfaces_every_), continued(position_.interface_rows));
   }
   const std::string checksum = checksum_text(mesh.checksum);
   if (fields_) fields_->about("run", run_);
-  for (SeriesFile* series :
-       {history_ ? &history_->series() : nullptr, contact_ ? &contact_->series() : nullptr})
-    if (series) {
-      series->about("mesh_checksum", checksum);
-      series->about("run", run_);
-    }
+  for (SeriesFile* series : all_series()) {
+    series->about("mesh_checksum", checksum);
+    series->about("run", run_);
+  }
+}
+
+std::vector<SeriesFile*> Recorder::all_series() const {
+  std::vector<SeriesFile*> found;
+  if (history_) found.push_back(&history_->series());
+  if (contact_) found.push_back(&contact_->series());
+  if (interfaces_file_) found.push_back(&interfaces_file_->series());
+  return found;
 }
 
 bool Recorder::fields_due(long n) const {
@@ -206,6 +237,7 @@ void Recorder::observe(long n) {
     seen.contact.clear();
     rows_.push_back(seen);
   }
+  record_interfaces(n);
   record_cells(n);
   share_faults();
   if (!bulk) return;
@@ -214,6 +246,14 @@ void Recorder::observe(long n) {
   double& largest = relative > largest_sound_residual ? rounded_residual_ : largest_residual_;
   largest = std::max(largest, relative);
   progress_.note(seen.friction, relative);
+}
+
+void Recorder::record_interfaces(long n) {
+  if (interfaces_due(n)) {
+    const auto forces = interfaces_->forces();
+    if (interfaces_file_) interfaces_file_->write(body_.time(), {forces});
+  }
+  if (precedes_interfaces(n)) interfaces_->keep_past();
 }
 
 void Recorder::record_cells(long n) {
@@ -225,16 +265,24 @@ void Recorder::record_cells(long n) {
   if (strain || choice_.quantities.of_stress())
     cell_stress(model.mesh, model.materials, body_.displacement_n(), stress_);
   if (strain) strain_.resize(stress_.size());
-  for (int cell = 0; strain && cell < cells.size(); ++cell)
-    Eigen::Vector3d::Map(strain_[cell].data()) =
-        compliance_[cells.region[cell]] * Eigen::Vector3d::Map(stress_[cell].data());
+  for (int cell = 0; strain && cell < cells.size(); ++cell) {
+    const int region = cells.region[cell];
+    const auto stress = Eigen::Vector3d::Map(stress_[cell].data());
+    auto found = Eigen::Vector3d::Map(strain_[cell].data());
+    if (model.materials[region].grading)
+      found = compliance(model.materials[region].at(cell).stiffness) * stress;
+    else
+      found = compliance_[region] * stress;
+  }
+  if ((frame && choice_.quantities.damping_work) || (sample && statistics_->damping()))
+    body_.cell_damping(damping_);
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };
   if (frame) {
     fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), rows(stress_),
-                   rows(strain_));
+                   rows(strain_), damping_.data());
     last_frame_ = n;
   }
-  if (sample) statistics_->add(body_.time(), stress_, strain_);
+  if (sample) statistics_->add(body_.time(), stress_, strain_, damping_);
 }
 
 void Recorder::check(const Observation& seen) const {
@@ -283,8 +331,8 @@ void Recorder::stop(const std::string& fault, const std::string& cure) const {
 
 void Recorder::share_faults() {
   std::string fault;
-  if (history_ && !history_->series().fault().empty()) fault = history_->series().fault();
-  if (contact_ && !contact_->series().fault().empty()) fault = contact_->series().fault();
+  for (const SeriesFile* series : all_series())
+    if (!series->fault().empty()) fault = series->fault();
   stop_together(body_.comm(), fault);
 }
 

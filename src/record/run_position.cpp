@@ -29,6 +29,9 @@ StateGroup RunPosition::state(bool keeps) {
   add("history_every", "1", "steps between the rows of history.h5", history_every);
   add("contact_every", "1", "steps between the rows of contact.h5", contact_every);
   add("contact_auto", "1", "1 when that number comes from `auto`", contact_auto);
+  add("interfaces_every", "1", "steps between the rows of interfaces.h5", interfaces_every);
+  add("interfaces_auto", "1", "1 when that number comes from `auto`", interfaces_auto);
+  add("interface_rows", "1", "rows of interfaces.h5", interface_rows);
   add("fields_every", "1", "steps between the frames of fields.h5", fields_every);
   add("statistics_first", "1", "first step of the window of the statistics", window_first);
   add("statistics_last", "1", "last step of it", window_last);

@@ -47,6 +47,7 @@ std::string Recorder::forecast() const {
   double bytes = 0;
   if (history_) bytes += history_->series().bytes(rows(history_every_));
   if (contact_) bytes += contact_->series().bytes(rows(contact_every_));
+  if (interfaces_file_) bytes += interfaces_file_->series().bytes(rows(interfaces_every_));
   if (fields_) bytes += fields_->bytes(frames);
   if (statistics_) bytes += statistics_->bytes();
   const double seconds = predicted_step_seconds(body_) * static_cast<double>(last_ + 1);
@@ -70,6 +71,9 @@ std::string Recorder::cadences() const {
   std::string text = "a row of history.h5 " + cadence(history_every_);
   if (has_contact_) text += ", of contact.h5 " + cadence(contact_every_);
   if (fields_every_) text += ", a frame of fields.h5 " + cadence(*fields_every_);
+  if (interfaces_)
+    text += ", of interfaces.h5 " + cadence(interfaces_every_) + ": " + interfaces_->describe();
+  if (body_.keeps_cell_damping()) text += "; what bulk damping takes in each cell is summed at every step";
   return text + "\n";
 }
 
@@ -88,6 +92,7 @@ void Recorder::write_run(const Options& options) const {
     yaml.number("largest_frequency", time_.frequency.sharp, "1/s, Lanczos");
     yaml.number("largest_frequency_bound", time_.frequency.safe, "1/s, largest element");
     yaml.integer("history_every", history_every_, "steps between the rows");
+    if (interfaces_) yaml.integer("interfaces_every", interfaces_every_, "the same, of interfaces.h5");
     if (has_contact_) yaml.integer("contact_every", contact_every_, "the same; what `auto` stands for");
     yaml.exact("stable_step", time_.limit, "s").exact("step", time_.step, "s").integer("steps", time_.count);
     for (std::size_t r = 0; r < model.materials.size(); ++r) {
@@ -105,9 +110,22 @@ void Recorder::write_run(const Options& options) const {
 void Recorder::close_files() {
   progress_.finish();
   if (fields_) fields_->close();
-  if (history_) history_->series().close();
-  if (contact_) contact_->series().close();
+  write_interfaces();
+  for (SeriesFile* series : all_series()) series->close();
   share_faults();
+}
+
+/// While the series is open, for the times of its rows are read from it.
+void Recorder::write_interfaces() {
+  if (!interfaces_) return;
+  std::string report, shown;
+  if (interfaces_file_) {
+    report = interfaces_file_->report();
+    shown = interfaces_file_->xdmf("interfaces.h5");
+    interfaces_headline_ = interfaces_file_->headline();
+  }
+  folder_.write_text("interfaces.yaml", report);
+  folder_.write_text("interfaces.xdmf", shown);
 }
 
 std::string Recorder::finish() {
@@ -139,7 +157,7 @@ std::string Recorder::summary(long steps, const std::string& why, const std::str
   if (is_root(body_.comm()))
     text = summary_text({body_, time_, rows_, observer_.measured(), history_every_, contact_every_, force,
                          largest_residual_, seconds(), std::move(remarks), momentum, steps, why, command,
-                         static_cast<std::size_t>(position_.even_from)});
+                         static_cast<std::size_t>(position_.even_from), interfaces_headline_});
   folder_.write_text("summary.yaml", text);
   return text;
 }

@@ -53,19 +53,26 @@ StatisticsWindow statistics_window(const StatisticsChoice& choice, const TimeSte
 }
 
 StressStatistics::StressStatistics(MPI_Comm comm, const Mesh& mesh, const StatisticsWindow& window,
-                                   double quantile)
+                                   double quantile, bool damping)
     : comm_(comm),
       mesh_(mesh),
       window_(window),
       quantile_(quantile),
       owned_(owned_cells(mesh.cells)),
       stress_(owned_.size(), window.samples(), quantile),
-      strain_(owned_.size(), window.samples(), quantile) {}
+      strain_(owned_.size(), window.samples(), quantile),
+      damping_(damping),
+      damping_first_(damping ? owned_.size() : 0),
+      damping_last_(damping_first_.size()) {}
 
 void StressStatistics::add(double time, const std::vector<std::array<double, 3>>& stress,
-                           const std::vector<std::array<double, 3>>& strain) {
-  if (samples() == 0) from_ = time;
+                           const std::vector<std::array<double, 3>>& strain,
+                           const std::vector<double>& damping) {
+  const bool first = samples() == 0;
+  if (first) from_ = time;
   to_ = time;
+  for (std::size_t k = 0; k < damping_last_.size(); ++k) damping_last_[k] = damping[owned_[k]];
+  if (first) damping_first_ = damping_last_;
   const auto add_to = [&](RunningStatistics& statistics, const std::vector<std::array<double, 3>>& values) {
     rows_.clear();
     for (const int cell : owned_) rows_.insert(rows_.end(), values[cell].begin(), values[cell].end());
@@ -79,6 +86,10 @@ std::vector<StateGroup> StressStatistics::state() {
   StateGroup cells{"cells", {}, mesh_.cells.total, true, stress_.state("stress", "Pa")};
   for (const int cell : owned_) cells.keys.push_back(mesh_.cells.number[cell]);
   for (StateArray& array : strain_.state("strain", "1")) cells.arrays.push_back(std::move(array));
+  if (damping_)
+    for (auto [name, values] :
+         {std::pair("damping_first", &damping_first_), {"damping_last", &damping_last_}})
+      cells.arrays.push_back({name, "J/m^3", "what bulk damping had taken", 1, values->data()});
   carried_ = {static_cast<double>(samples()), from_, to_};
   return {std::move(cells),
           {"statistics",
@@ -97,8 +108,12 @@ void StressStatistics::resume() {
 
 void StressStatistics::write(const std::string& folder) const {
   if (samples() == 0) return;
+  std::vector<double> power;
+  for (std::size_t k = 0; k < damping_last_.size(); ++k)
+    power.push_back((damping_last_[k] - damping_first_[k]) / (to_ - from_));
   write_statistics(comm_, MeshImage(comm_, mesh_), {from_, to_, samples(), quantile_}, stress_.result(),
-                   strain_.result(), folder);
+                   strain_.result(), folder, "statistics",
+                   damping_ ? std::optional(std::move(power)) : std::nullopt);
 }
 
 std::string StressStatistics::forecast(double time_step) const {
@@ -110,6 +125,9 @@ std::string StressStatistics::forecast(double time_step) const {
                 readable_bytes(memory * static_cast<double>(mesh_.cells.total)));
 }
 
-double StressStatistics::bytes() const { return statistics_bytes(mesh_.nodes.total, mesh_.cells.total); }
+double StressStatistics::bytes() const {
+  return statistics_bytes(mesh_.nodes.total, mesh_.cells.total) +
+         (damping_ ? sizeof(double) * static_cast<double>(mesh_.cells.total) : 0);
+}
 
 }  // namespace slipscale

@@ -177,6 +177,7 @@ std::string summary_text(const SummaryInput& in) {
   if (in.measured >= 0) friction = write_load(yaml, in, window);
   if (in.body.scene().surface) write_contact(yaml, window, friction);
   write_energy(yaml, in);
+  if (!in.interfaces.empty()) yaml.text("interfaces", in.interfaces, "all peaks: interfaces.yaml");
   if (in.why.empty()) write_momentum(yaml, in);
   for (std::size_t k = 0; k < in.remarks.size(); ++k) {
     if (k == 0) yaml.begin("notes");

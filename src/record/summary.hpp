@@ -22,6 +22,7 @@ struct SummaryInput {
   long steps;                            ///< made
   std::string why, command;              ///< of an interrupted run: who stopped it, how to go on
   std::size_t even_from;                 ///< the row from which on rows are as far apart as they are now
+  std::string interfaces;                ///< what debonds first; empty where interfaces are not followed
 };
 
 /// summary.yaml: the headline numbers, on rank 0.

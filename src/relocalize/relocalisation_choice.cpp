@@ -44,33 +44,40 @@ std::optional<double> read_strip(const Options& options) {
 }  // namespace
 
 Schema relocalisation_schema() {
-  return {
-      {"relocalize_run", Kind::text, "", required, range::any,
-       "folder of the homogeneous run of slide; its frames hold the strain (-fields_quantities strain)"},
-      {"relocalize_tensors", Kind::text, "", required, range::any,
-       "localization.h5 of homogenize, or its folder: of the whole block, or of a periodic cell that tiles "
-       "it"},
-      {"relocalize_reference", Kind::text, "", absent, range::any,
-       "folder of the heterogeneous run of slide to compare with, at the cells of its mesh"},
-      {"relocalize_origin", Kind::reals, "m", absent, range::any,
-       "x,y of the lower left corner of one periodic cell; as drawn when absent"},
-      {"relocalize_recovery", Kind::text, "", "nodal", range::one_of({"element", "nodal"}),
-       "strain of the homogeneous run between its cell centres: that of the cell, or continuous by patch "
-       "recovery"},
-      {"relocalize_points", Kind::reals, "m", absent, range::any,
-       "x1,y1,x2,y2,...: points whose cells' stress is kept over time"},
-      {"relocalize_correction", Kind::text, "", "none", range::one_of({"none", "strip"}),
-       "next to the contact: none, or equilibrium restored in a strip above it"},
-      {"relocalize_strip", Kind::real, "m", required, range::positive,
-       "depth of that strip: a few diameters of the inclusions"},
-      {"relocalize_layer", Kind::real, "m", required, range::positive,
-       "depth of the layer next to the contact whose error is told apart"},
-      {"relocalize_bulk", Kind::real, "m", required, range::non_negative,
-       "distance from the edges beyond which the error of the bulk is told apart"},
-      {"output_folder", Kind::text, "", required, range::any,
-       "gets relocalized.h5 and .xdmf, relocalized_statistics.h5 and .xdmf, comparison.yaml"},
-      {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}), "progress line on a terminal"},
-      {"run_<entry>", Kind::text, "", absent, range::any, "what a file tells about a run; read by nobody"}};
+  return interface_schema() +
+         Schema{{"relocalize_run", Kind::text, "", required, range::any,
+                 "folder of the homogeneous run of slide; its frames hold the strain (-fields_quantities "
+                 "strain)"},
+                {"relocalize_tensors", Kind::text, "", required, range::any,
+                 "localization.h5 of homogenize, or its folder: of the whole block, or of a periodic cell "
+                 "that tiles "
+                 "it"},
+                {"relocalize_reference", Kind::text, "", absent, range::any,
+                 "folder of the heterogeneous run of slide to compare with, at the cells of its mesh"},
+                {"relocalize_origin", Kind::reals, "m", absent, range::any,
+                 "x,y of the lower left corner of one periodic cell; as drawn when absent"},
+                {"relocalize_recovery", Kind::text, "", "nodal", range::one_of({"element", "nodal"}),
+                 "strain of the homogeneous run between its cell centres: that of the cell, or continuous by "
+                 "patch "
+                 "recovery"},
+                {"relocalize_points", Kind::reals, "m", absent, range::any,
+                 "x1,y1,x2,y2,...: points whose cells' stress is kept over time"},
+                {"relocalize_correction", Kind::text, "", "none", range::one_of({"none", "strip"}),
+                 "next to the contact: none, or equilibrium restored in a strip above it"},
+                {"relocalize_strip", Kind::real, "m", required, range::positive,
+                 "depth of that strip: a few diameters of the inclusions"},
+                {"relocalize_layer", Kind::real, "m", required, range::positive,
+                 "depth of the layer next to the contact whose error is told apart"},
+                {"relocalize_bulk", Kind::real, "m", required, range::non_negative,
+                 "distance from the edges beyond which the error of the bulk is told apart"},
+                {"output_folder", Kind::text, "", required, range::any,
+                 "gets relocalized.h5 and .xdmf, relocalized_statistics.h5 and .xdmf, comparison.yaml, "
+                 "interfaces.h5, .xdmf and "
+                 ".yaml"},
+                {"progress", Kind::text, "", "auto", range::one_of({"auto", "none"}),
+                 "progress line on a terminal"},
+                {"run_<entry>", Kind::text, "", absent, range::any,
+                 "what a file tells about a run; read by nobody"}};
 }
 
 RelocalisationChoice read_relocalisation(const Options& options) {
@@ -81,6 +88,7 @@ RelocalisationChoice read_relocalisation(const Options& options) {
   choice.origin = read_origin(options);
   choice.recovery = options.text("relocalize_recovery") == "element" ? Recovery::element : Recovery::nodal;
   choice.points = read_points(options);
+  choice.interfaces = read_interfaces(options);
   choice.strip = read_strip(options);
   choice.folder = options.text("output_folder");
   choice.progress = options.text("progress");

@@ -4,6 +4,7 @@
 #include "slipscale/base/print.hpp"
 #include "slipscale/files/mesh_group.hpp"
 #include "slipscale/files/xdmf.hpp"
+#include "slipscale/relocalize/local_stress.hpp"
 
 namespace slipscale {
 namespace {
@@ -40,7 +41,8 @@ struct RelocalisedFile::File {
 
   void add(const std::string& name, const char* units, const std::string& text,
            std::span<const PlaneTensor> rows) {
-    stop_unless_finite(comm, {rows.empty() ? nullptr : rows.front().data(), 3 * rows.size()}, text);
+    refuse_unless_finite(comm, {rows.empty() ? nullptr : rows.front().data(), 3 * rows.size()}, text,
+                         cure_of_overflow);
     const DatasetDescription about{frame_path(times.size()) + name, units, text};
     data.write({about.path, units, text + "; xx, yy and xy"}, image.cells(), {3},
                rows.empty() ? nullptr : rows.front().data());

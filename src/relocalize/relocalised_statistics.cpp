@@ -67,10 +67,10 @@ void write_relocalised_statistics(MPI_Comm comm, const StatisticsReader& run, co
   strain.mean = flat(local.strain());
   stress.covariance = flat(found.stress);
   strain.covariance = flat(found.strain);
-  stop_unless_finite(comm, stress.mean, "the mean of the relocalised stress");
-  stop_unless_finite(comm, strain.mean, "the mean of the relocalised strain");
-  stop_unless_finite(comm, stress.covariance, "the covariance of the relocalised stress");
-  stop_unless_finite(comm, strain.covariance, "the covariance of the relocalised strain");
+  refuse_unless_finite(comm, stress.mean, "the mean of the relocalised stress", cure_of_overflow);
+  refuse_unless_finite(comm, strain.mean, "the mean of the relocalised strain", cure_of_overflow);
+  refuse_unless_finite(comm, stress.covariance, "the covariance of the relocalised stress", cure_of_overflow);
+  refuse_unless_finite(comm, strain.covariance, "the covariance of the relocalised strain", cure_of_overflow);
   const StatisticsSample sample{.from = run.from(),
                                 .to = run.to(),
                                 .count = static_cast<std::size_t>(run.samples()),

@@ -64,7 +64,8 @@ template <class Scalar>
 double largest_modulus(const std::vector<Material>& materials) {
   double largest = 0;
   for (const Material& material : materials)
-    largest = std::max(largest, material.stiffness.cwiseAbs().maxCoeff());
+    largest = std::max(
+        largest, material.grading ? material.grading->modulus : material.stiffness.cwiseAbs().maxCoeff());
   return largest;
 }
 
@@ -86,8 +87,9 @@ AssembledPairs assemble_pairs(const Mesh& mesh, const std::vector<Material>& mat
   ByShape<ElementStiffness> stiffness;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const auto nodes = mesh.cells.nodes_of(cell);
-    const ElementStiffness& k = stiffness.of(mesh, cell, [&](std::span<const Vector2> shape) {
-      return element_stiffness(shape, materials[mesh.cells.region[cell]].stiffness);
+    const Solid solid = materials[mesh.cells.region[cell]].at(cell);
+    const ElementStiffness& k = stiffness.of(mesh, cell, solid, [&](std::span<const Vector2> shape) {
+      return element_stiffness(shape, solid.stiffness);
     });
     for_pairs(mesh, cell, [&](int a, int b) {
       int pair = pairs.first[row_of[nodes[a]]];

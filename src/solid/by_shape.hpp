@@ -4,11 +4,12 @@
 #include <cstring>
 
 #include "slipscale/mesh/mesh.hpp"
+#include "slipscale/solid/material.hpp"
 
 namespace slipscale {
 
-/// What follows from the shape and the region of a cell, kept for the last few that were asked for: on a grid
-/// the cells beside each other are alike, to the last bit.
+/// What follows from the shape of a cell and what it is made of, kept for the last few that were asked for:
+/// on a grid the cells beside each other are alike, to the last bit.
 template <class Value>
 class ByShape {
  public:
@@ -16,22 +17,23 @@ class ByShape {
 
   /// `make(shape)` where it is not among the last few.
   template <class Make>
-  const Value& of(const Mesh& mesh, int cell, Make&& make) {
+  const Value& of(const Mesh& mesh, int cell, const Solid& solid, Make&& make) {
     const Shape shape = mesh.shape_of(cell);
-    const int region = mesh.cells.region[cell], corners = mesh.cells.corner_count(cell);
+    const int corners = mesh.cells.corner_count(cell);
     for (const Known& known : known_)
-      if (known.region == region && known.corners == corners &&
-          std::memcmp(&known.shape, &shape, sizeof shape) == 0)
+      if (known.corners == corners && std::memcmp(&known.shape, &shape, sizeof shape) == 0 &&
+          known.solid == solid)
         return known.value;
     Known& known = known_[next_++ % known_.size()];
-    known = {region, corners, shape, make(std::span(shape.data(), static_cast<std::size_t>(corners)))};
+    known = {corners, shape, solid, make(std::span(shape.data(), static_cast<std::size_t>(corners)))};
     return known.value;
   }
 
  private:
   struct Known {
-    int region = -1, corners = 0;
+    int corners = 0;
     Shape shape{};
+    Solid solid{};
     Value value{};
   };
   std::array<Known, 4> known_{};

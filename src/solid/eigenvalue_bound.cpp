@@ -20,8 +20,8 @@ std::vector<double> eigenvalues(const Mesh& mesh, const std::vector<Material>& m
   values.reserve(static_cast<std::size_t>(mesh.cells.size()));
   ByShape<double> eigenvalue;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const Material& material = materials[mesh.cells.region[cell]];
-    const double value = eigenvalue.of(mesh, cell, [&](std::span<const Vector2> shape) {
+    const Solid material = materials[mesh.cells.region[cell]].at(cell);
+    const double value = eigenvalue.of(mesh, cell, material, [&](std::span<const Vector2> shape) {
       return largest_element_eigenvalue(shape, material.stiffness, material.density);
     });
     values.push_back(std::isfinite(value) ? value : unknown);  // a comparison would lose what is no number

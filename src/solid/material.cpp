@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effective_file.hpp"
+#include "graded.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/physical_range.hpp"
 #include "slipscale/base/print.hpp"
@@ -13,12 +14,15 @@ namespace {
 
 const Range poissons_ratio{"> -1 and < 0.5", [](double x) { return x > -1 && x < 0.5; }};
 
+void refuse_unless_six(const std::string& where, std::size_t count) {
+  if (count != 6)
+    throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " + std::to_string(count) +
+                    " are given");
+}
+
 Eigen::Matrix3d voigt(const std::string& where, const std::vector<double>& c) {
-  if (c.size() != 6)
-    throw UserError(where + " needs six numbers c11,c22,c12,c66,c16,c26 in Pa, but " +
-                    std::to_string(c.size()) + " are given");
-  Eigen::Matrix3d stiffness;
-  stiffness << c[0], c[2], c[4], c[2], c[1], c[5], c[4], c[5], c[3];
+  refuse_unless_six(where, c.size());
+  const Eigen::Matrix3d stiffness = voigt_stiffness(c);
   if (Eigen::LLT<Eigen::Matrix3d>(stiffness).info() != Eigen::Success)
     throw UserError(where +
                     " is not positive definite; check the order c11,c22,c12,c66,c16,c26 and the signs");
@@ -45,23 +49,54 @@ std::vector<std::string> options_of(const std::string& region) {
   return names_in(material_schema(), "material_<region>_", region);
 }
 
+/// For what a reader needs of a body to take formulas; null: it does not.
+struct Body {
+  const Mesh* mesh = nullptr;
+  int region = 0;
+};
+
+void refuse_formula(const std::string& name) {
+  throw UserError("-" + name +
+                  " is a formula, but phases of a cell are uniform; give numbers (slide and modes take "
+                  "formulas)");
+}
+
 /// The material written under material_<region>_….
-Material read_one(const Options& options, const std::string& region) {
+Material read_one(const Options& options, const std::string& region, const Body& body) {
   const std::string prefix = "material_" + region + "_";
   for (const std::string& name : options_of(region))
     if (name != prefix + "file") options.refuse_both(name, prefix + "file");
   for (const char* key : {"young", "poisson"}) options.refuse_both(prefix + key, prefix + "stiffness");
   if (const auto path = options.find_text(prefix + "file")) return from_file(prefix + "file", *path);
-  Material material;
+  std::vector<GradedConstant> constants;
+  const auto add = [&](const std::string& key, const Quantity& quantity) {
+    if (quantity.formula && !body.mesh) refuse_formula(prefix + key);
+    constants.push_back({prefix + key, quantity});
+  };
   if (options.given(prefix + "stiffness")) {
-    material.stiffness = voigt("-" + prefix + "stiffness", options.reals(prefix + "stiffness"));
+    const auto six = options.quantities(prefix + "stiffness");
+    refuse_unless_six("-" + prefix + "stiffness", six.size());
+    for (const Quantity& each : six) add("stiffness", each);
+  } else {
+    add("young", options.quantity(prefix + "young"));
+    add("poisson", options.quantity(prefix + "poisson"));
+  }
+  add("density", options.quantity(prefix + "density"));
+  if (std::ranges::any_of(constants,
+                          [](const GradedConstant& each) { return each.value.formula != nullptr; }))
+    return graded_material(options, *body.mesh, body.region, constants);
+  std::vector<double> numbers;
+  for (const GradedConstant& each : constants) numbers.push_back(each.value.number);
+  Material material;
+  material.density = numbers.back();
+  numbers.pop_back();
+  if (numbers.size() == 6) {
+    material.stiffness = voigt("-" + prefix + "stiffness", numbers);
     material.description = six_numbers(material.stiffness);
   } else {
-    const double young = options.real(prefix + "young"), poisson = options.real(prefix + "poisson");
-    material.stiffness = isotropic_stiffness(young, poisson);
-    material.description = format("E {:.4g} GPa, nu ", young * 1e-9) + apart_from(0.5, poisson, 4);
+    material.stiffness = isotropic_stiffness(numbers[0], numbers[1]);
+    material.description = format("E {:.4g} GPa, nu ", numbers[0] * 1e-9) + apart_from(0.5, numbers[1], 4);
   }
-  material.density = options.real(prefix + "density");
   material.description += format(", {:.4g} kg/m3", material.density);
   return material;
 }
@@ -96,7 +131,17 @@ Eigen::Matrix3d isotropic_stiffness(double young, double poisson) {
   return c;
 }
 
+Eigen::Matrix3d voigt_stiffness(std::span<const double> c) {
+  Eigen::Matrix3d stiffness;
+  stiffness << c[0], c[2], c[4], c[2], c[1], c[5], c[4], c[5], c[3];
+  return stiffness;
+}
+
 WaveSpeeds wave_speeds(const Material& material, double nx, double ny) {
+  return wave_speeds(Solid{material.stiffness, material.density}, nx, ny);
+}
+
+WaveSpeeds wave_speeds(const Solid& material, double nx, double ny) {
   Eigen::Matrix<double, 3, 2> direction;
   direction << nx, 0, 0, ny, ny, nx;
   const Eigen::Matrix2d acoustic = direction.transpose() * material.stiffness * direction;
@@ -112,13 +157,23 @@ bool nearly_incompressible(const Eigen::Matrix3d& c) {
   return (bulk - shear) / (2 * bulk) > locking + rounding;
 }
 
+bool nearly_incompressible(const Material& material) {
+  return material.grading ? material.grading->locks : nearly_incompressible(material.stiffness);
+}
+
 Schema material_schema() {
   return {
-      {"material_<region>_young", Kind::real, "Pa", required, range::physical_positive, "Young's modulus"},
-      {"material_<region>_poisson", Kind::real, "1", required, poissons_ratio, "Poisson's ratio"},
-      {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::physical,
+      {"material_<region>_young", Kind::real, "Pa", required,
+       range::or_formula(range::physical_positive, "xy"),
+       "Young's modulus; of a graded body a formula, as the other constants: each cell has their values at "
+       "the "
+       "mean of its corners (slide and modes)"},
+      {"material_<region>_poisson", Kind::real, "1", required, range::or_formula(poissons_ratio, "xy"),
+       "Poisson's ratio"},
+      {"material_<region>_stiffness", Kind::reals, "Pa", absent, range::or_formula(range::physical, "xy"),
        "c11,c22,c12,c66,c16,c26 in plane strain, in place of young and poisson"},
-      {"material_<region>_density", Kind::real, "kg/m3", required, range::physical_positive, "mass density"},
+      {"material_<region>_density", Kind::real, "kg/m3", required,
+       range::or_formula(range::physical_positive, "xy"), "mass density"},
       {"material_<region>_file", Kind::text, "", absent, range::any,
        "effective.yaml of a homogenised material: stiffness and density"},
       {"material_file", Kind::text, "", absent, range::any,
@@ -126,24 +181,38 @@ Schema material_schema() {
   };
 }
 
-std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions) {
+namespace {
+
+std::vector<Material> read_all(const Options& options, const std::vector<std::string>& regions,
+                               const Mesh* mesh) {
   std::vector<Material> materials;
   for (const std::string& key : options_of("all")) options.refuse_both("material_file", key);
   refuse_idle_shares(options, regions);
   const bool shared = mentioned(options, "all");
-  for (const std::string& region : regions) {
-    const std::string own = "material_" + region + "_";
-    if (mentioned(options, region))
-      materials.push_back(read_one(options, region));
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const std::string own = "material_" + regions[r] + "_";
+    const Body body{mesh, static_cast<int>(r)};
+    if (mentioned(options, regions[r]))
+      materials.push_back(read_one(options, regions[r], body));
     else if (const auto shared_file = options.find_text("material_file"))
       materials.push_back(from_file("material_file", *shared_file));
     else if (shared)
-      materials.push_back(read_one(options, "all"));
+      materials.push_back(read_one(options, "all", body));
     else
-      throw UserError("region '" + region + "' has no material; give -" + own + "young, -" + own +
+      throw UserError("region '" + regions[r] + "' has no material; give -" + own + "young, -" + own +
                       "poisson and -" + own + "density, or one for every region under material_all_");
   }
   return materials;
+}
+
+}  // namespace
+
+std::vector<Material> read_materials(const Options& options, const std::vector<std::string>& regions) {
+  return read_all(options, regions, nullptr);
+}
+
+std::vector<Material> read_materials(const Options& options, const Mesh& mesh) {
+  return read_all(options, mesh.region_names(), &mesh);
 }
 
 }  // namespace slipscale

@@ -13,7 +13,7 @@ std::array<double, 3> stress_of_cell(const Mesh& mesh, const std::vector<Materia
     const Vector2& u = displacement[nodes[k]];
     strain += b.col(2 * k) * u[0] + b.col(2 * k + 1) * u[1];
   }
-  const Eigen::Vector3d stress = materials[mesh.cells.region[cell]].stiffness * strain;
+  const Eigen::Vector3d stress = materials[mesh.cells.region[cell]].at(cell).stiffness * strain;
   return {stress[0], stress[1], stress[2]};
 }
 

@@ -17,7 +17,7 @@ from pathlib import Path
 BARE = {"material_all_young": 45e9, "material_all_poisson": 0.25, "material_all_density": 1800, "surface_boundary": "bottom",
         "surface_speed": 2, "friction_law": "none", "boundary_top_x": "fixed", "boundary_top_y": -1.39e-6,
         "boundary_top_ramp": 4e-5, "time_step": 4e-9, "history_every": 10**7, "history_boundary": "top",
-        "contact_every": 10**7, "checkpoint_minutes": 0, "progress": "none"}
+        "contact_every": 10**7, "contact_sums": "false", "checkpoint_minutes": 0, "progress": "none"}
 FRICTION = {"friction_law": "regularized", "friction_coefficient": 0.5, "friction_time": 6e-7}
 ROWS = {"history_every": 10}
 FEATURES = {  # name: options on top of the bare scene; None leaves one out
@@ -32,11 +32,20 @@ FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "regularised law, threshold regularised": {**FRICTION, "friction_threshold": "regularized"},
     "regularised law of the slip rate": {"friction_law": "regularized", "friction_coefficient": 0.5, "friction_rate": "slip",
                                          "friction_length": 1.2e-6, "friction_rate_reference": 1},
+    "a coefficient that falls with the slip rate": {**FRICTION, "friction_law": "exponential", "friction_kinetic": 0.3,
+                                                    "friction_slip_rate": 1},
+    "friction of each phase": {**FRICTION, "friction_matrix_coefficient": 0.7, "friction_matrix_time": 3e-7},
     "a rigid side with a plate": {"boundary_top_y": "rigid", "boundary_top_force": 7e4, "boundary_top_mass": 0.1},
     "history, a row in 10 steps": ROWS,
     "the same with five probes": {**ROWS, "history_points": "1e-3,0,2e-3,0,2.5e-3,0,3e-3,1e-3,4e-3,2e-3"},
     "the same with momenta": {**ROWS, "history_momentum": "true"},
     "contact, a row in 10 steps": {"contact_every": 10},
+    "sums over every step at the contact": {"contact_sums": "true"},
+    "the same sums, a row in 10 steps at the contact": {"contact_sums": "true", "contact_every": 10},
+    "damping work of the cells, beside stiffness damping": {"damping_stiffness": 2e-9, "fields_every": 10**7,
+                                                            "fields_quantities": "damping_work"},
+    "interfaces, a row in 1000 steps": {"interfaces_region": "inclusion", "interfaces_every": 1000},
+    "interfaces, a row in 10 steps": {"interfaces_region": "inclusion", "interfaces_every": 10},
     "fields, a frame in 500 steps": {"fields_every": 500},
     "statistics of every 20th step": {"statistics_from": 0, "statistics_every": 20},
     "checkpoint every 1000 steps": {"checkpoint_every": 1000},

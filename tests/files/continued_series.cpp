@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -16,7 +17,7 @@ namespace {
 using Storage = SeriesFile::Storage;
 using Continue = SeriesFile::Continue;
 
-constexpr double place[] = {1, 2};
+constexpr double place[] = {1, 2}, elsewhere[] = {2, 3};
 
 /// A series file with its quantities declared: of row n, time is n + ⅓, u two numbers, status a byte.
 struct Series {
@@ -51,6 +52,17 @@ std::string written(const std::string& name, int rows) {
   series.file.close();
   EXPECT_EQ(series.file.fault(), "");
   return path;
+}
+
+/// Where the first free piece of the first heap of names begins: HDF5 File Format Specification 3.0, III.D.
+std::streamoff free_piece(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t heap = bytes.find("HEAP");
+  std::uint64_t head = 0, data = 0;
+  std::memcpy(&head, &bytes.at(heap + 16), sizeof head);
+  std::memcpy(&data, &bytes.at(heap + 24), sizeof data);
+  return static_cast<std::streamoff>(head + data);
 }
 
 void expect_same(const std::string& path, const std::string& whole) {
@@ -167,7 +179,7 @@ TEST(ContinuedSeries, AForeignFileIsRefusedAndStaysAsItIs) {
   });
   said("'/status' has another type of number", [](auto& file) { file.add("/status", {3}, "1", "state"); });
   said("'/x' has the shape 2 and not 1", [](auto& file) { file.constant("/x", place, {1}, "m", ""); });
-  said("'/x' has other values", [](auto& file) { file.constant("/x", place + 1, {2}, "m", ""); });
+  said("'/x' has other values", [](auto& file) { file.constant("/x", elsewhere, {2}, "m", ""); });
   said("its mesh_checksum is 'fnv1a:0123' and not 'fnv1a:4567'",
        [](auto& file) { file.about("mesh_checksum", "fnv1a:4567"); });
 }
@@ -185,6 +197,10 @@ TEST(ContinuedSeries, WhatIsNoSuchFileIsRefused) {
   const std::string cut = written("cut.h5", 500);
   std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
   EXPECT_NE(refused(cut).find("cannot be continued: "), std::string::npos);
+  const std::string heap = written("heap.h5", 500);  // how long the last free piece of the names' heap is
+  const auto at = free_piece(heap);
+  std::fstream(heap, std::ios::in | std::ios::out | std::ios::binary).seekp(at + 13).put(2);
+  EXPECT_NE(refused(heap).find("cannot be continued: it is cut short or damaged; "), std::string::npos);
   const std::string other = scratch("other.h5");
   { const Hdf5File file(H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)); }
   EXPECT_NE(refused(other).find("cannot be continued: the attribute 'program': "), std::string::npos);

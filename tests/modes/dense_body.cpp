@@ -68,7 +68,7 @@ std::vector<std::complex<double>> eigenvalues(const MatrixXd& system) {
 }  // namespace
 
 DenseBody dense_body(const Mesh& mesh, const std::vector<Material>& materials, const Scene& scene,
-                     const std::vector<PetscInt>& closed) {
+                     const std::vector<PetscInt>& closed, const std::vector<double>& reactions) {
   const Whole whole = assemble(mesh, materials);
   const auto place = whole_field(PETSC_COMM_WORLD, mesh, mesh.nodes.position.data());
   const Index n = whole.mass.size();
@@ -113,9 +113,18 @@ DenseBody dense_body(const Mesh& mesh, const std::vector<Material>& materials, c
   const auto count = static_cast<Index>(closed.size());
   body.reaction.resize(count, free.cols());
   body.push.resize(free.cols(), count);
+  body.coefficient.resize(count);
+  body.slope.resize(count);
+  const FrictionChoice& law = scene.friction;
   for (Index k = 0; k < count; ++k) {
     const PetscInt node = closed[static_cast<std::size_t>(k)];
     body.reaction.row(k) = whole.stiffness.row(2 * node + 1) * free;
+    const double x = place[node][0], still = law.mu().at({x, 0}, 0), kinetic = law.kinetic.at({x, 0}, 0);
+    const bool falls = law.law == FrictionChoice::Law::exponential;
+    const double part = falls ? std::exp(-std::abs(scene.surface->speed) / law.slip_rate) : 1;
+    body.coefficient[k] = falls ? kinetic + (still - kinetic) * part : still;
+    body.slope[k] =
+        falls ? -(still - kinetic) / law.slip_rate * part * reactions[static_cast<std::size_t>(k)] : 0;
     body.push.col(k) = (scene.surface->speed > 0 ? 1 : -1) * free.row(2 * node).transpose();
   }
   return body;
@@ -123,7 +132,8 @@ DenseBody dense_body(const Mesh& mesh, const std::vector<Material>& materials, c
 
 std::vector<std::complex<double>> exponents_of(const DenseBody& body, const Scene& scene, double time) {
   const Index n = body.mass.rows(), c = body.reaction.rows(), memory = time > 0 ? c : 0;
-  const double mu = scene.friction.coefficient, a = scene.damping.mass, b = scene.damping.stiffness;
+  const double a = scene.damping.mass, b = scene.damping.stiffness;
+  const auto mu = body.coefficient.asDiagonal();
   const MatrixXd inverse = body.mass.inverse();
   MatrixXd system = MatrixXd::Zero(2 * n + memory, 2 * n + memory);
   system.block(0, n, n, n).setIdentity();
@@ -131,12 +141,13 @@ std::vector<std::complex<double>> exponents_of(const DenseBody& body, const Scen
   system.block(n, n, n, n) = -inverse * (a * body.damped + b * body.stiffness);
   if (time > 0) {
     system.block(n, 2 * n, n, c) = inverse * body.push;
-    system.block(2 * n, 0, c, n) = mu / time * body.reaction;
-    system.block(2 * n, n, c, n) = mu * b / time * body.reaction;
+    system.block(2 * n, 0, c, n) = mu * body.reaction / time;
+    system.block(2 * n, n, c, n) = mu * body.reaction * (b / time);
+    system.block(2 * n, n, c, n) -= body.slope.asDiagonal() * body.push.transpose() / time;
     system.block(2 * n, 2 * n, c, c).diagonal().setConstant(-1 / time);
   } else {
-    system.block(n, 0, n, n) += mu * inverse * body.push * body.reaction;
-    system.block(n, n, n, n) += mu * b * inverse * body.push * body.reaction;
+    system.block(n, 0, n, n) += inverse * body.push * (mu * body.reaction);
+    system.block(n, n, n, n) += b * inverse * body.push * (mu * body.reaction);
   }
   std::vector<std::complex<double>> found;
   for (const auto& p : eigenvalues(system))
@@ -147,7 +158,8 @@ std::vector<std::complex<double>> exponents_of(const DenseBody& body, const Scen
 std::vector<std::complex<double>> scheme_exponents_of(const DenseBody& body, const Scene& scene, double time,
                                                       double step) {
   const Index n = body.mass.rows(), c = body.reaction.rows();
-  const double mu = scene.friction.coefficient, a = scene.damping.mass, b = scene.damping.stiffness;
+  const double a = scene.damping.mass, b = scene.damping.stiffness;
+  const auto mu = body.coefficient.asDiagonal();
   const Relaxation memory = relaxation(time > 0 ? step / time : 1e300);
   const MatrixXd inverse = body.mass.inverse(), none = MatrixXd::Zero(n, n);
   // Rows of what the step makes of (u_n, w_n, u_{n−1}, s_{n−1}, λ_{n−1}).
@@ -155,9 +167,10 @@ std::vector<std::complex<double>> scheme_exponents_of(const DenseBody& body, con
   MatrixXd reaction = MatrixXd::Zero(c, size), strength = MatrixXd::Zero(c, size);
   reaction.leftCols(n) = (1 + b / step) * body.reaction;
   reaction.middleCols(2 * n, n) = -b / step * body.reaction;
-  strength = mu * memory.now * reaction;
+  strength = memory.now * (mu * reaction);
+  strength.middleCols(n, n) -= (1 - memory.keep) * (body.slope.asDiagonal() * body.push.transpose());
   strength.middleCols(3 * n, c).diagonal().array() += memory.keep;
-  strength.rightCols(c).diagonal().array() += mu * memory.before;
+  strength.rightCols(c).diagonal() += memory.before * body.coefficient;
   MatrixXd acceleration = MatrixXd::Zero(n, size);
   acceleration.leftCols(n) = -(1 + b / step) * body.stiffness;
   acceleration.middleCols(n, n) = -a * body.damped;

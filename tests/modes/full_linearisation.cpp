@@ -49,13 +49,29 @@ std::vector<Case> cases() {
   std::vector<Case> all{{"regularised", scene(0.4, 0.3)},    {"Coulomb", scene(0.6, 0)},
                         {"periodic", scene(0.5, 0.2), true}, {"backwards", scene(0.4, 0.3)},
                         {"damped", scene(0.5, 0.25)},        {"slip rate", scene(0.5, 0.25)},
-                        {"level plate", scene(0.4, 0.3)},    {"tilting plate", scene(0.4, 0.3)}};
+                        {"level plate", scene(0.4, 0.3)},    {"tilting plate", scene(0.4, 0.3)},
+                        {"along x", scene(0.4, 0.3)},        {"falling", scene(0.6, 0.3)},
+                        {"falling along x", scene(0.6, 0.2)}};
   all[3].scene.surface->speed = -1;
   all[4].scene.damping = {0.05, 0.01};
   all[4].scene.beta2 = 0.7;
   all[5].scene.friction.by_slip_rate = true;
   all[5].scene.friction.length = 0.25 * 1.5;
   all[5].scene.friction.rate_reference = 0.5;
+  const auto formula = [](const std::string& text) {
+    return std::make_shared<const Formula>(text, "x", Formula::Names{}, "coefficient of a case");
+  };
+  all[8].scene.friction.coefficient_formula = formula("0.5 + x");
+  for (const std::size_t k : {9, 10}) {
+    all[k].scene.friction.law = FrictionChoice::Law::exponential;
+    all[k].scene.friction.kinetic = {0.3};
+    all[k].scene.friction.slip_rate = 2;
+    all[k].scene.damping.stiffness = 0.005;
+  }
+  all[10].scene.surface->speed = -1;
+  all[10].scene.friction.coefficient = 1;
+  all[10].scene.friction.coefficient_formula = formula("0.4 + 0.3*x");
+  all[10].scene.friction.kinetic = {1, formula("0.2*(1 + x)")};
   for (const std::size_t k : {6, 7}) {
     BoundaryCondition& top = all[k].scene.conditions[0];
     top.displacement[1].reset();
@@ -67,13 +83,23 @@ std::vector<Case> cases() {
   return all;
 }
 
-std::vector<PetscInt> closed_numbers(const Mesh& mesh, const SteadySliding& state) {
+/// Whole-mesh numbers of the closed nodes, and their reactions.
+struct ClosedNodes {
+  std::vector<PetscInt> number;
+  std::vector<double> reaction;
+};
+
+ClosedNodes closed_nodes(const Mesh& mesh, const SteadySliding& state) {
   std::vector<Vector2> mark(static_cast<std::size_t>(mesh.nodes.owned), {0, 0});
-  for (std::size_t k = 0; k < state.nodes.size(); ++k) mark[state.nodes[k].node][0] = state.is_closed[k];
+  for (std::size_t k = 0; k < state.nodes.size(); ++k)
+    mark[state.nodes[k].node] = {static_cast<double>(state.is_closed[k]), state.reaction[k]};
   const auto whole = whole_field(PETSC_COMM_WORLD, mesh, mark.data());
-  std::vector<PetscInt> found;
+  ClosedNodes found;
   for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole[i][0] != 0) found.push_back(static_cast<PetscInt>(i));
+    if (whole[i][0] != 0) {
+      found.number.push_back(static_cast<PetscInt>(i));
+      found.reaction.push_back(whole[i][1]);
+    }
   return found;
 }
 
@@ -123,7 +149,8 @@ TEST(SlidingModes, AreThoseOfTheFullLinearisation) {
     const ModesReport report =
         find_sliding_modes(basis, state, c.scene, choice(), SchemeStep{step, c.scene.beta2});
     ASSERT_EQ(report.modes.size(), 8u) << c.text;
-    const DenseBody dense = dense_body(mesh, materials(), c.scene, closed_numbers(mesh, state));
+    const ClosedNodes closed = closed_nodes(mesh, state);
+    const DenseBody dense = dense_body(mesh, materials(), c.scene, closed.number, closed.reaction);
     std::vector<Complex> found, in_scheme;
     for (const ReportedMode& each : report.modes) {
       EXPECT_LE(each.mode.residual, 1e-11) << c.text;

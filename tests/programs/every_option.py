@@ -32,6 +32,7 @@ LENGTH = {"friction_time": None, "friction_length": 1.2e-6}
 BY_SLIP_RATE = {**LENGTH, "friction_rate": "slip", "friction_rate_reference": 0.2}
 FRICTIONLESS = {"friction_law": "none", "friction_coefficient": None, "friction_time": None}
 COULOMB = {"friction_law": "coulomb", "friction_time": None}
+FALLING = {"friction_law": "exponential", "friction_kinetic": 0.5, "friction_slip_rate": 2}
 SINE = {"initial_sine_amplitude": 0.1, "initial_sine_wavelength": SIDE}
 PLATE = {"boundary_top_y": "rigid", "boundary_top_force": 1e4}
 LOADED = {"boundary_top_y": None, "boundary_top_pressure": 1e6}
@@ -97,13 +98,19 @@ def strain_energy(stress, modulus):
 
 def quantities(run):
     return len({name.rsplit("/", 1)[1] for name in run.fields if name.startswith("frames/")} &
-               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low"})
+               {"u", "v", "stress", "strain", "von_mises", "principal_high", "principal_low", "damping_work"})
 
 
 def frames(run):
     return len({name.split("/")[1] for name in run.fields if name.startswith("frames/")})
 
 
+FIBRE = {"mesh_file": "two.msh", "material_fibre_young": YOUNG, "material_fibre_poisson": POISSON,
+         "material_fibre_density": DENSITY}
+FOLLOWED = {**FIBRE, "interfaces_region": "fibre"}
+NO_REGION = "without -interfaces_region"
+STRENGTHS = {"interfaces_normal_strength": 1e6, "interfaces_shear_strength": 1e6}
+INDEX = lambda run: run.interfaces["index"].sum()
 SAMPLES = {"statistics_from": 1e-6, "statistics_to": 3e-6, "statistics_every": 5}  # steps 50, 55, ..., 150
 NO_WINDOW = "without -statistics_from"
 QUANTILE = lambda run: run.statistics["statistics/stress/quantile_high"].sum()
@@ -148,6 +155,10 @@ def needs_surface(value):
 def needs_memory(value):
     return [needs_surface(value), Idle({**COULOMB, "OPTION": value}, "with -friction_law coulomb"),
             Idle({**FRICTIONLESS, "OPTION": value}, "with -friction_law none")]
+
+
+def needs_falling(value):
+    return needs_memory(value) + [Idle({"OPTION": value}, "with -friction_law regularized")]
 
 
 ALWAYS = []  # acts in every scene
@@ -225,6 +236,12 @@ ROWS = {
     "initial_displacement": Row([Answer({"OPTION": "0,-1e-7", "surface_height": -1e-6}, first("energy/strain"), same),
                                  Answer({"OPTION": "1e-7*y/H,0"}, first("energy/strain"),
                                         becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    # Interpolated: test_initial_file.py. The table holds a shear, the run rises from rest.
+    "initial_file": Row([Answer({"OPTION": "sheared.csv"}, first("energy/strain"),
+                                becomes(strain_energy(1e-7 / SIDE * C66, C66)))], ALWAYS),
+    "initial_time": Row([Answer({"OPTION": 0}, first("energy/kinetic"), less, base={"initial_file": "rising"})],
+                        [Idle({"OPTION": 0}, "without -initial_file"),
+                         Idle({"initial_file": "sheared.csv", "OPTION": 0}, "with a table")]),
     "initial_rotation": Row([Answer({"OPTION": 40}, M_X, becomes(20 * SIDE))], ALWAYS),
     "initial_sine_amplitude": Row([Answer({"OPTION": 0.2}, M_X, becomes(-0.2), base=SINE)], ALWAYS),
     "initial_sine_wavelength": Row([Answer({"OPTION": 1.5 * SIDE}, M_X, becomes(0.1 * np.cos(2 * np.pi / 3)),
@@ -249,6 +266,13 @@ ROWS = {
     "friction_law": Row([Answer(COULOMB, DRAG, more), Answer(FRICTIONLESS, DRAG, becomes(0))], [needs_surface("none")]),
     "friction_coefficient": Row([Answer({"OPTION": 0.25}, DRAG, less)],
                                 [needs_surface(0.5), Idle({**FRICTIONLESS, "OPTION": 0.5}, "with -friction_law none")]),
+    # The faster the slip, the nearer to the kinetic coefficient.
+    "friction_kinetic": Row([Answer({"OPTION": 0.2}, DRAG, less, base=FALLING)], needs_falling(0.2)),
+    "friction_slip_rate": Row([Answer({"OPTION": 20}, DRAG, more, base={**FALLING, "friction_kinetic": 0.2})],
+                              needs_falling(2)),
+    "friction_<region>_kinetic": Row([Answer({"OPTION": 0.2}, DRAG, less, base=FALLING)], needs_falling(0.2)),
+    "friction_<region>_slip_rate": Row([Answer({"OPTION": 20}, DRAG, more, base={**FALLING, "friction_kinetic": 0.2})],
+                                       needs_falling(2)),
     "friction_length": Row([Answer({"OPTION": 1.2e-5}, DRAG, less, base=LENGTH)],
                            needs_memory(1e-6) +
                            [Idle({"OPTION": 1e-6}, "-friction_time contradicts -friction_length")]),
@@ -290,6 +314,9 @@ ROWS = {
                             Idle({"fields_every": 5, "OPTION": 1e-6}, "-fields_every contradicts -fields_interval")]),
     "contact_every": Row([Answer({"OPTION": 10}, lambda run: len(run.contact["time"]), becomes(21))],
                          [needs_surface(10)]),
+    # That they add up: test_sums.py.
+    "contact_sums": Row([Answer({"OPTION": "false"}, lambda run: int("sums/friction_work" in run.contact), less)],
+                        [needs_surface("true")]),
     "fields_every": Row([Answer({"OPTION": 50}, frames, becomes(5))],
                         [Idle({"fields_times": "1e-6", "OPTION": 50}, "-fields_every contradicts -fields_times")]),
     "fields_times": Row([Answer({"OPTION": "1e-6,3e-6"}, frames, becomes(2))], ALWAYS),
@@ -300,8 +327,23 @@ ROWS = {
                               Answer({"OPTION": "u,v,stress,strain"}, quantities, becomes(4),
                                      base={"fields_every": 50}),
                               Answer({"OPTION": "u,von_mises,principal"}, quantities, becomes(4),
-                                     base={"fields_every": 50})],
+                                     base={"fields_every": 50}),
+                              Answer({"OPTION": "u,damping_work"}, quantities, becomes(2),
+                                     base={"fields_every": 50, "damping_stiffness": 2e-9})],
                              [Idle({"OPTION": "u,v"}, "without -fields_every, -fields_interval or -fields_times")]),
+    # Of which the numbers are looked at in test_interfaces.py.
+    "interfaces_region": Row([Answer({"OPTION": "fibre"}, has("interfaces.h5"), more, base=FIBRE)],
+                             [Idle({"OPTION": "block"}, "the only region of the mesh")]),
+    "interfaces_every": Row([Answer({"OPTION": 50}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                            [Idle({"OPTION": 50}, NO_REGION)]),
+    "interfaces_interval": Row([Answer({"OPTION": 1e-6}, lambda run: len(run.interfaces["time"]), becomes(5), base=FOLLOWED)],
+                               [Idle({"OPTION": 1e-6}, NO_REGION)]),
+    # Pulled at its top: pressed, no interface is under tension.
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, INDEX, more,
+                                              base={**FOLLOWED, **STRENGTHS, "boundary_top_y": 1.4e-6})],
+                                      [Idle({"OPTION": 1e6}, NO_REGION)]),
+    "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, INDEX, more, base={**FOLLOWED, **STRENGTHS})],
+                                     [Idle({"OPTION": 1e6}, NO_REGION)]),
     "statistics_from": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES),
                             Answer({"OPTION": 1e-6}, lambda run: int("statistics.h5" in run.files), more)], ALWAYS),
     "statistics_to": Row([Answer({"OPTION": 2e-6}, lambda run: run.samples, becomes(11), base=SAMPLES)],
@@ -310,6 +352,10 @@ ROWS = {
                             [Idle({"OPTION": 10}, NO_WINDOW)]),
     "statistics_quantile": Row([Answer({"OPTION": 0.9}, QUANTILE, less, base=SAMPLES)],
                                [Idle({"OPTION": 0.9}, NO_WINDOW)]),
+    "statistics_damping": Row([Answer({"OPTION": "true"}, lambda run: int("statistics/damping_power" in run.statistics), more,
+                                      base={**SAMPLES, "damping_stiffness": 2e-9})],
+                              [Idle({"OPTION": "true"}, NO_WINDOW),
+                               Idle({**SAMPLES, "OPTION": "true"}, "nothing damps the body")]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/summary.yaml" in run.files), more)],
                          ALWAYS),
     # For people in front of a terminal: test_progress_is_for_terminals.

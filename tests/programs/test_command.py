@@ -71,7 +71,7 @@ class Command(unittest.TestCase):
     def test_the_manual_and_the_version(self):
         manual = self.slipscale("-h")
         for name in ("picture", "cell-picture", "relocalized-picture", "maps", "plan", "adapt", "sweep", "table", "compare",
-                     "scene"):
+                     "scene", "wear"):
             self.assertIn(f"\n  {name} ", manual)
             self.assertIn(f"slipscale {name}", self.slipscale(name, "-h"))
         self.assertRegex(self.slipscale("--version"), r"^slipscale \d+\.\d+\.\d+\nPython 3")
@@ -86,6 +86,13 @@ class Command(unittest.TestCase):
         self.assertIn("There is no history.h5", self.slipscale("picture", "cell", "a.png", code=2))
         self.assertIn("There is no localization.h5", self.slipscale("cell-picture", "first run", "a.png", code=2))
         self.assertIn("names no mesh", self.slipscale("scene", "cell/effective.yaml", "a.png", code=2))
+
+    def test_wear(self):
+        said = self.slipscale("wear", "first run", "worn off", "--archard", "1e-4", "--hardness", "1e9")
+        self.assertIn("depth, Archard", said)
+        self.made("worn off/wear.png")
+        self.assertIn("There is no contact.h5", self.slipscale("wear", "cell", "a", "--energy", "1", code=2))
+        self.assertIn("nothing is asked for", self.slipscale("wear", "first run", "a", code=2))
 
     def test_compare(self):
         said = self.slipscale("compare", "first run", "second run", "--picture", "both.png")

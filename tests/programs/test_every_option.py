@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 from every_option import COULOMB, DENSITY, FOUR_TIMES, FRICTIONLESS, ROWS, SCENE
 from running import SLIDE, InScratch, arguments_of, datasets, h5py, yaml_of
-from scenes import block
+from scenes import SIDE, block
 
 RANKS_OF_REFUSALS = 2
 AT_ONCE = 2  # starting and ending a parallel job is mostly waiting
@@ -30,9 +30,9 @@ class Run:
 
     def __init__(self, folder, outcome):
         out = folder / "out"
-        self.history, self.contact, self.fields, self.statistics = (
+        self.history, self.contact, self.fields, self.statistics, self.interfaces = (
             datasets(out / file) if (out / file).exists() else {}
-            for file in ("history.h5", "contact.h5", "fields.h5", "statistics.h5"))
+            for file in ("history.h5", "contact.h5", "fields.h5", "statistics.h5", "interfaces.h5"))
         if self.statistics:
             with h5py.File(out / "statistics.h5") as file:
                 self.samples = file["statistics"].attrs["samples"]
@@ -49,7 +49,11 @@ class EveryOption(InScratch):
         block(self.folder / "block.msh")
         block(self.folder / "fine.msh", divisions=16)
         block(self.folder / "ring.msh", periodic=True)
+        block(self.folder / "two.msh", regions=("block", "fibre"))
         (self.folder / "four_times.yaml").write_text(f"stiffness: [{FOUR_TIMES}]\ndensity: {DENSITY}\n")
+        (self.folder / "sheared.csv").write_text("x,y,ux\n" + "".join(f"{x},{y},{1e-7 * y / SIDE}\n" for x in (0, SIDE) for y in (0, SIDE)))
+        body = {name: value for name, value in SCENE.items() if name.startswith(("mesh_", "material_"))}
+        self.run_scene({**body, "body_acceleration": "0,1e6", "time_end": 1e-7, "fields_every": 1, "output_folder": "rising"})
         self.runs = {}
 
     def result(self, scene, ranks):

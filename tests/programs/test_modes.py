@@ -5,9 +5,10 @@ import unittest
 
 import h5py
 import meshio
-from running import datasets
+from running import arguments_of, datasets
 from scenes import block
 from squealing import FILES, RUN, Squealing
+from test_phases import striped
 
 
 CELL, SHEAR_SPEED = 5e-3 / 8, math.sqrt(45e9 / 2.5 / 1800)  # m, m/s
@@ -43,6 +44,41 @@ class Modes(Squealing):
     def test_growth_is_the_work_of_friction_less_that_of_damping(self):
         """Over a period: 2 Re p of the energy, and damping takes b ω² of the strain energy's mean, half of it all."""
         _, found = self.run_modes()
+        for mode in found["modes"]:
+            omega = 2 * math.pi * mode["frequency"]
+            balance = sum(mode["friction_work"].values()) - 2 * math.pi * RUN["damping_stiffness"] * omega / 2 * 2
+            self.assertAlmostEqual(balance, 4 * math.pi * mode["growth_rate"] / omega, delta=0.02)
+
+    def test_friction_of_each_phase(self):
+        """Equal coefficients are one; others act each where it touches, as does a formula of the place."""
+        self.assertEqual(self.launch("gmsh", *striped(self.folder)).codes, [0])
+        _, one = self.run_modes()
+        _, equal = self.run_modes(friction_matrix_coefficient=0.5, friction_inclusion_coefficient="0.5 + 0*x", ranks=2)
+        self.assert_same(one["modes"], equal["modes"], 1e-10)
+        own = {"friction_coefficient": None, "friction_matrix_coefficient": 0.2, "friction_inclusion_coefficient": 0.8}
+        _, apart = self.run_modes(**own)
+        _, ranks = self.run_modes(**own, ranks=2)
+        self.assert_same(apart["modes"], ranks["modes"], 1e-10)
+        stripes = "0.5 - 0.3*(x < L/4) - 0.3*(x > L/2)*(x < 3*L/4) + 0.3*(x > L/4)*(x < L/2) + 0.3*(x > 3*L/4)"
+        _, formula = self.run_modes(friction_coefficient=stripes)
+        self.assert_same(apart["modes"], formula["modes"], 1e-9)
+        with self.assertRaises(AssertionError):
+            self.assert_same(one["modes"], apart["modes"], 1e-3)
+        outcome = self.modes(*arguments_of({**RUN, "friction_inclusion_time": 1e-7}), ranks=2)
+        self.assert_refused("modes", outcome, ["does not remember as long in region 'inclusion' as in 'matrix'", "-friction_time"], 2)
+
+    def test_a_coefficient_that_falls(self):
+        """Level it is that of the surface's speed; falling it feeds every mode, by what friction works more."""
+        level = {"friction_law": "exponential", "friction_threshold": None, "friction_kinetic": 0.5, "friction_slip_rate": 1}
+        _, one = self.run_modes()
+        _, same = self.run_modes(**level)
+        self.assert_same(one["modes"], same["modes"], 1e-10)
+        falls = {**level, "friction_kinetic": 0.3}
+        _, found = self.run_modes(**falls)
+        _, ranks = self.run_modes(**falls, modes_scheme="true", ranks=2)
+        self.assert_same(found["modes"], ranks["modes"], 1e-10)
+        _, level = self.run_modes(friction_coefficient=0.3 + 0.2 * math.exp(-2))
+        self.assertGreater(found["modes"][0]["growth_rate"], level["modes"][0]["growth_rate"])
         for mode in found["modes"]:
             omega = 2 * math.pi * mode["frequency"]
             balance = sum(mode["friction_work"].values()) - 2 * math.pi * RUN["damping_stiffness"] * omega / 2 * 2

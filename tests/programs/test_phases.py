@@ -1,5 +1,6 @@
 """Friction of each phase: its own constants act where it touches, equal ones have the bits of one law for all."""
 
+import re
 import unittest
 
 import numpy as np
@@ -36,6 +37,7 @@ def striped(folder, name="block.msh"):
 SCENE = {**SQUEAL, "contact_every": 10, "fields_every": 200, "time_end": 20e-6}
 COULOMB = {"friction_law": "coulomb", "friction_time": None, "friction_threshold": None}
 BY_SLIP_RATE = {"friction_time": None, "friction_rate": "slip", "friction_length": 1.2e-6, "friction_rate_reference": 0.1}
+FALLING = {"friction_law": "exponential", "friction_kinetic": 0.3, "friction_slip_rate": 1, "friction_threshold": None}
 OWN = {"friction_matrix_coefficient": 0.2, "friction_inclusion_coefficient": 0.6}
 
 
@@ -53,7 +55,8 @@ class Phases(InScratch):
     def test_equal_constants_are_one_law(self):
         cases = {"coulomb": (COULOMB, {}), "time": ({}, {"time": 0.6e-6}), "length": ({}, {"length": 1.2e-6}),
                  "instantaneous": ({"friction_threshold": None}, {"time": 0.6e-6}),
-                 "slip rate": (BY_SLIP_RATE, {"length": 1.2e-6})}
+                 "slip rate": (BY_SLIP_RATE, {"length": 1.2e-6}),
+                 "exponential": (FALLING, {"time": 0.6e-6, "kinetic": 0.3, "slip_rate": 1})}
         for name, (law, memory) in cases.items():
             with self.subTest(name):
                 if name == "length":
@@ -82,6 +85,54 @@ class Phases(InScratch):
         history = datasets(self.folder / "out2" / "history.h5")
         self.assertLess(np.abs(history["energy/residual"] / history["energy/flowed"])[1:].max(), 1e-10)
 
+    def test_those_of_all_need_not_be_given_where_each_has_its_own(self):
+        """`back` does not touch. The shortest memory is that of the inclusions, whatever would stand for all."""
+        own = {**OWN, "friction_matrix_time": 6e-7, "friction_inclusion_time": 1e-7}
+        none = {"friction_coefficient": None, "friction_time": None}
+        self.run_scene({**SCENE, **own, "output_folder": "all"})
+        outcome = self.run_scene({**SCENE, **own, **none, "output_folder": "own"}, ranks=2)
+        self.assertIn("friction: regularized, in matrix: mu 0.2, T 600.0 ns, in inclusion: mu 0.6, T 100.0 ns", outcome.out)
+        self.assert_same_bits("all", "own")
+        falling = {**own, **none, **FALLING, "friction_kinetic": None, "friction_slip_rate": None}
+        for region in REGIONS:
+            falling |= {f"friction_{region}_kinetic": 0.1, f"friction_{region}_slip_rate": 1}
+        self.run_scene({**SCENE, **falling}, ranks=2)
+        for missing in ("friction_inclusion_time", "friction_matrix_coefficient", "friction_matrix_kinetic", "friction_inclusion_slip_rate"):
+            outcome = self.slide(*arguments_of({**SCENE, **falling, missing: None}), ranks=2)
+            key = missing.split("_", 2)[2].replace("time", "length")
+            self.assert_refused("slide", outcome, [f"-friction_{key}"], 2)
+
+    def test_the_shortest_memory_is_that_of_the_phase_that_has_it(self):
+        """Remarks on a memory below the step, and below two edges, are those of one law with the shorter memory."""
+        for short in (1e-9, 5e-8):
+            said = []
+            for times in ({"friction_time": short}, {"friction_time": 6e-7, "friction_inclusion_time": short},
+                          {"friction_time": None, "friction_matrix_time": 6e-7, "friction_inclusion_time": short},
+                          {"friction_time": None, "friction_matrix_time": short, "friction_inclusion_time": 6e-7},
+                          {"friction_time": short / 100, "friction_matrix_time": short, "friction_inclusion_time": 6e-7}):
+                outcome = self.slide(*arguments_of({**SCENE, "time_end": 1e-6, **times}), ranks=2)
+                self.assertEqual(outcome.codes, [0, 0], outcome.err)
+                said.append([line for line in (outcome.out + outcome.err).splitlines()
+                             if re.match("note: .*(relaxation time of friction|memory spans)", line)])
+            self.assertEqual(len(said[0]), 1, said)
+            self.assertEqual(said, said[:1] * len(said))
+
+    def test_a_coefficient_that_falls(self):
+        """Without a difference it is the regularised law; a run goes on with the same bits."""
+        self.run_scene({**SCENE, "friction_threshold": None, "output_folder": "one"})
+        level = {**SCENE, **FALLING, "friction_kinetic": 0.5}
+        self.run_scene({**level, "output_folder": "level"}, ranks=2)
+        self.assert_same_bits("one", "level")
+        falls = {**SCENE, **FALLING, "friction_kinetic": "0.3 + 0.1*x/L"}
+        self.run_scene(falls, output_folder="whole")
+        self.run_scene({**falls, "time_end": 10e-6}, ranks=2, output_folder="halves")
+        outcome = self.slide("-restart", "halves", "-time_end", falls["time_end"])
+        self.assertEqual(outcome.codes, [0], outcome.err)
+        self.assert_same_bits("whole", "halves")
+        history = datasets(self.folder / "whole" / "history.h5")
+        self.assertLess(np.abs(history["energy/residual"] / history["energy/flowed"])[1:].max(), 1e-10)
+        self.assertTrue((np.diff(history["energy/friction_heat"]) >= 0).all())
+
     def test_one_phase_alone_differs(self):
         """The others have the constants of all; a memory of its own as well, and a formula of the place."""
         self.run_scene({**SCENE, "friction_matrix_coefficient": 0.5, "friction_inclusion_time": 1e-7, "output_folder": "a"})
@@ -109,6 +160,11 @@ class Phases(InScratch):
                 ({"friction_law": "none", "friction_coefficient": None, "friction_time": None, "friction_threshold": None,
                   "friction_matrix_coefficient": 0.3}, ["-friction_matrix_coefficient has no effect with -friction_law none"]),
                 ({**BY_SLIP_RATE, "friction_matrix_time": 1e-7}, ["-friction_matrix_time", "with -friction_rate slip"]),
+                ({**FALLING, "friction_time": 0}, ["-friction_time is 0", "needs a memory"]),
+                ({**FALLING, "friction_inclusion_time": 0}, ["-friction_inclusion_time is 0", "needs a memory"]),
+                ({**FALLING, "friction_slip_rate": 0}, ["-friction_slip_rate", "> 0"]),
+                ({"friction_inclusion_kinetic": 0.1}, ["-friction_inclusion_kinetic has no effect with -friction_law regularized"]),
+                ({**FALLING, "friction_threshold": "regularized"}, ["-friction_threshold has no effect with -friction_law exponential"]),
                 ({"friction_matrix_time": 1e-7, "friction_matrix_length": 1e-7}, ["contradicts"])):
             with self.subTest(changes=changes):
                 outcome = self.slide(*arguments_of({**SCENE, **changes}), ranks=2)

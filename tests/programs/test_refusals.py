@@ -148,7 +148,7 @@ MISTAKES = {
     "frames before the start": Mistake(["-fields_times", "-1e-06 s lies outside the run"], {"fields_times": "-1e-6,0"}),
     "frames far after the end": Mistake(["-fields_times", "1e+30 s lies outside the run"], {"fields_times": "1e30"}),
     "frames twice": Mistake(["-fields_every contradicts -fields_times"], {"fields_every": 5, "fields_times": "0"}),
-    "quantities nonsense": Mistake(["-fields_quantities", "'power'", "u, v, stress, strain, von_mises and principal"],
+    "quantities nonsense": Mistake(["-fields_quantities", "'power'", "u, v, stress, strain, von_mises, principal and damping_work"],
                                    {"fields_every": 5, "fields_quantities": "u,power"}),
     "contact rows between steps": Mistake(["-contact_every is 2.5", "whole number"], {"contact_every": 2.5}),
     "rows within a step": Mistake(["-history_interval is 1e-12 s", "less than the step", "give at least that"],

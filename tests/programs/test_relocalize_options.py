@@ -18,6 +18,8 @@ AT_ONCE = 2
 ORIGIN = np.array([0.3e-3, 0.2e-3])
 TILED = {"relocalize_tensors": "torus"}
 STRIP = {"relocalize_correction": "strip", "relocalize_strip": 2e-3}
+STRONG = {"interfaces_region": "inclusion", "interfaces_normal_strength": 1e6, "interfaces_shear_strength": 1e6}
+NO_REGION = "without -interfaces_region"
 ALONE = "without -relocalize_reference"
 ROWS_OF_CELLS = 8
 
@@ -25,6 +27,10 @@ ROWS_OF_CELLS = 8
 # The numbers: functions of a run.
 def stress(run):
     return run.local["frames/00003/stress"]
+
+
+def index(run):
+    return run.interfaces["index"].sum()
 
 
 def off_the_origin(run):
@@ -61,6 +67,11 @@ ROWS = {
     "relocalize_bulk": Row([Answer({"OPTION": 1.3e-3}, share("bulk"), becomes(bulk(2)), base=COMPARED),
                             Answer({"OPTION": 0}, share("bulk"), becomes(1), base=COMPARED)],
                            [Idle({"OPTION": 1e-3}, ALONE)]),
+    # Of which the numbers are looked at in test_relocalize_interfaces.py.
+    "interfaces_region": Row([Answer({"OPTION": "inclusion"}, lambda run: int("interfaces.yaml" in run.files), more)],
+                             [Idle({"OPTION": "fibre"}, "the mesh has the regions 'matrix', 'inclusion'")]),
+    "interfaces_normal_strength": Row([Answer({"OPTION": 5e5}, index, more, base={**STRONG, "relocalize_run": "pulled"})], [Idle({"OPTION": 1e6}, NO_REGION)]),
+    "interfaces_shear_strength": Row([Answer({"OPTION": 5e5}, index, more, base=STRONG)], [Idle({"OPTION": 1e6}, NO_REGION)]),
     "output_folder": Row([Answer({"OPTION": "out/deeper"}, lambda run: int("deeper/relocalized.h5" in run.files),
                                  more)], ALWAYS),
     # For people in front of a terminal.
@@ -80,6 +91,8 @@ class Run:
 
     def __init__(self, test, folder):
         self.local = test.local(folder)
+        followed = (test.folder / folder / "interfaces.h5").exists()
+        self.interfaces = test.local(folder, "interfaces.h5") if followed else None
         self.files = {str(path.relative_to(test.folder / "out")) for path in (test.folder / "out").rglob("*")}
         compared = (test.folder / folder / "comparison.yaml").exists()
         self.comparison = test.comparison(folder) if compared else None
@@ -92,10 +105,11 @@ class EveryOption(Relocalising):
         self.make_runs()
         self.draw_cell(self.folder / "cell.msh")
         self.run_cell(MICRO, output_folder="torus")
-        shutil.copytree(self.folder / "homogeneous", self.folder / "twice")
-        for name, rows in datasets(self.folder / "twice" / "fields.h5").items():
-            if name.endswith("/strain"):
-                replace(self.folder / "twice" / "fields.h5", name, 2 * rows)
+        for folder, factor in (("twice", 2), ("pulled", -1)):
+            shutil.copytree(self.folder / "homogeneous", self.folder / folder)
+            for name, rows in datasets(self.folder / folder / "fields.h5").items():
+                if name.endswith("/strain"):
+                    replace(self.folder / folder / "fields.h5", name, factor * rows)
         shutil.copytree(self.folder / "cell", self.folder / "stiffer")
         with h5py.File(self.folder / "stiffer" / "localization.h5", "r+") as file:
             file["region/stiffness"][...] *= 3

@@ -17,23 +17,24 @@ SHORT = {**SQUEAL, "time_end": 60e-6, "time_step": 2e-9, "contact_every": 500, "
 LONG = {**SHORT, "time_step": 1e-10, "contact_every": 7500, "history_every": 300}
 EVERYTHING = {
     **LONG, "time_beta2": 0.6, "damping_mass": 100, "body_acceleration": "0,-9.81", "statistics_from": 3e-6,
-    "fields_interval": 4e-6, "fields_quantities": "u,v,stress,strain,von_mises", "fields_box": "0,0,3e-3,2e-3",
-    "history_momentum": "yes",
+    "fields_interval": 4e-6, "fields_quantities": "u,v,stress,strain,von_mises,damping_work",
+    "fields_box": "0,0,3e-3,2e-3", "history_momentum": "yes", "statistics_damping": "yes",
 }
 # What a scene may have, and what it leaves from one step to the next.
 SCENES = {
     "everything at once": EVERYTHING,
     "Coulomb, single storage": {
         **LONG, "friction_law": "coulomb", "friction_time": None, "friction_threshold": None,
-        "stiffness_storage": "single", "statistics_from": 0, "statistics_quantile": 0.9},
+        "stiffness_storage": "single", "statistics_from": 0, "statistics_quantile": 0.9, "contact_sums": "false"},
     "slip rate, a plate that tilts": {
         **LONG, "friction_time": None, "friction_rate": "slip", "friction_length": 1.2e-6,
         "friction_rate_reference": 0.1, "boundary_top_y": "tilting", "boundary_top_force": -60e3,
-        "boundary_top_mass": 2e-3, "time_beta2": 0.8, "fields_times": "1e-6,20e-6,59e-6"},
+        "boundary_top_mass": 2e-3, "time_beta2": 0.8, "fields_times": "1e-6,20e-6,59e-6",
+        "fields_quantities": "u,damping_work"},
     "no damping, traction": {**LONG, "damping_stiffness": None, "friction_threshold": "instantaneous",
                              "boundary_top_y": None, "boundary_top_pressure": 10e6},
 }
-FILES = ("history.h5", "contact.h5", "fields.h5", "statistics.h5")
+FILES = ("history.h5", "contact.h5", "fields.h5", "statistics.h5", "interfaces.h5")
 
 
 class InBlock(InScratch):

@@ -176,7 +176,7 @@ class Refusals(InScratch):
         "a box for no frames": ({"fields_box": "0,0,1e-3,1e-3", "fields_every": None, "fields_quantities": None},
                                 "-fields_box has no effect without -fields_every, -fields_interval or -fields_times"),
         "a quantity nobody knows": ({"fields_quantities": "u,power"}, "-fields_quantities", "'power'",
-                                    "u, v, stress, strain, von_mises and principal"),
+                                    "u, v, stress, strain, von_mises, principal and damping_work"),
         "a window after the run": ({"statistics_from": 21e-6}, "-statistics_from: 2.1e-05 s lies outside the run"),
         "a window that ends after it": ({"statistics_from": 0, "statistics_to": 21e-6},
                                         "-statistics_to: 2.1e-05 s lies outside the run"),

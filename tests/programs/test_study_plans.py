@@ -6,7 +6,7 @@ import subprocess
 
 import studies
 
-STUDIES = ("accuracy", "contrast", "equivalence", "plan", "refinement", "relocalisation", "stability", "strip",
+STUDIES = ("accuracy", "contrast", "equivalence", "phases", "plan", "refinement", "relocalisation", "stability", "strip",
            "sweep", "tradeoff")
 
 

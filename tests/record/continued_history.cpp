@@ -25,7 +25,9 @@ struct Sliding {
       : model(mesh, {scene_r_material()}, Model::Storage::full),
         body(world, model, scene_of(with_surface), 2e-8),
         observer(body, false),
-        probes(world, model, {{1e-3, 2e-3}}) {}
+        probes(world, model, {{1e-3, 2e-3}}) {
+    body.keep_contact_sums();
+  }
 
   /// Makes all steps; writes those from `from` on, continuing files that have so many rows.
   std::vector<Observation> go(const std::string& name, int from, int to) {
@@ -37,7 +39,8 @@ struct Sliding {
     std::vector<Observation> rows;
     if (is_root(world)) {
       history.emplace(name + ".history.h5", body, probes.positions(), false, steps, continued);
-      if (surface) contact.emplace(name + ".contact.h5", observer, steps, continued);
+      if (surface)
+        contact.emplace(name + ".contact.h5", observer, model.mesh.region_names(), true, steps, continued);
       rows = history->rows_so_far();
       EXPECT_EQ(history->series().refusal(), "");
       EXPECT_EQ(rows.size(), static_cast<std::size_t>(from));

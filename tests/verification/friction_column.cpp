@@ -30,6 +30,7 @@ std::vector<ColumnReading> run_column(const Column& column, double time_step, lo
   if (column.held) scene.conditions.push_back({"bottom", {0.0, std::nullopt}, 0, 0, 0});
   scene.initial.velocity = {column.velocity, 0};
   scene.initial.pressure = column_pressure * (1 + column.excess_pressure);
+  scene.initial.shear = column.shear;
   scene.surface = Surface{"bottom", 0, column.speed, column.ramp};
   scene.friction = column.friction;
   Simulation simulation(PETSC_COMM_WORLD, {path}, {isotropic(2, 0, 2)}, scene, time_step);
@@ -53,21 +54,21 @@ std::vector<ColumnReading> run_column(const Column& column, double time_step, lo
 
 namespace {
 
-/// m = k = 1 and μp = 1. The direction of slip is +1, −1, or 0 in stick.
+/// m = k = 1 and μp = 1, of falling friction at rest. The direction of slip is +1, −1, or 0 in stick.
 class Oscillator {
  public:
   Oscillator(const Column& column, double kept)
       : column_(column),
         surface_{"", 0, column.speed, column.ramp},
         kept_(kept),
-        now_{0, column.velocity, 0} {
+        now_{column.shear, column.velocity, std::abs(column.shear)} {
     const double slip = slip_rate(now_, 0);
     direction_ = slip > 0 ? 1 : slip < 0 ? -1 : 0;
   }
 
   double displacement_at(double end) {
     constexpr double step = 1e-3;
-    for (double t = 0; t < end;) {
+    for (double& t = time_; t < end;) {
       double part = std::min(step, end - t);
       State next = advanced(t, part);
       if (changes(next, t + part)) {
@@ -82,7 +83,7 @@ class Oscillator {
       } else {
         now_ = next;
       }
-      t += part;
+      t = part == end - t ? end : t + part;
     }
     return now_.x;
   }
@@ -100,6 +101,14 @@ class Oscillator {
     return state.x + (surface_.velocity(t + d) - surface_.velocity(t - d)) / (2 * d);
   }
   double limit(const State& state) const { return stored() ? state.s : 1; }
+  /// μp in slip.
+  double target(double slip) const {
+    const FrictionChoice& law = column_.friction;
+    if (law.law != FrictionChoice::Law::exponential) return 1;
+    const double kinetic = law.kinetic.number;
+    return column_pressure *
+           (kinetic + (law.coefficient - kinetic) * std::exp(-std::abs(slip) / law.slip_rate));
+  }
 
   bool changes(const State& state, double t) const {
     if (direction_ == 0) return std::abs(demand(state, t)) > limit(state);
@@ -123,7 +132,7 @@ class Oscillator {
     const FrictionChoice& law = column_.friction;
     const double slip = direction_ == 0 ? 0 : std::abs(slip_rate(state, t));
     const double time = law.by_slip_rate ? law.length / (slip + law.rate_reference) : law.time;
-    const double strengthening = (1 - state.s) / time;
+    const double strengthening = (target(slip) - state.s) / time;
     if (direction_ == 0) return {surface_.velocity(t), 0, strengthening};
     return {state.v, direction_ * state.s - state.x, strengthening};
   }
@@ -145,6 +154,7 @@ class Oscillator {
   const Surface surface_;
   const double kept_;
   State now_;
+  double time_ = 0;
   double direction_ = 0;
 };
 
@@ -152,6 +162,23 @@ class Oscillator {
 
 double oscillator_displacement(const Column& column, double end, double kept) {
   return Oscillator(column, kept).displacement_at(end);
+}
+
+std::vector<double> oscillator_path(const Column& column, double end, int count) {
+  Oscillator oscillator(column, 0);
+  std::vector<double> path;
+  for (int k = 1; k <= count; ++k) path.push_back(oscillator.displacement_at(end * k / count));
+  return path;
+}
+
+FrictionChoice falling_friction(double time) {
+  FrictionChoice choice;
+  choice.law = FrictionChoice::Law::exponential;
+  choice.coefficient = column_friction;
+  choice.kinetic = {0.2};
+  choice.slip_rate = 1;
+  choice.time = time;
+  return choice;
 }
 
 }  // namespace slipscale::testing_support

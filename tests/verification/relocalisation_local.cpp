@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <numbers>
+
 #include "cells_composite.hpp"
 #include "relocalisation.hpp"
 #include "report.hpp"
+#include "slipscale/relocalize/boundary_layer.hpp"
+#include "slipscale/solid/interface_forces.hpp"
 
 using namespace slipscale;
 using namespace slipscale::testing_support;
@@ -85,4 +90,45 @@ TEST(Relocalisation, HasTheReferenceValuesInADisc) {
           source});
   report({topic, "interface at 0 degrees, E_xx = 1: stress xx, GPa", "70.2756 +- 0.06",
           format("{:.4f}", edge[0]), format("{:.2f}", order(interface_errors)), source});
+}
+
+/// Recovered from the nodal forces of the disc's own cells: σ_xx at θ = 0, between the two nodes beside it,
+/// and its mean over the disc's outline against that over the disc (∮ x t_x ds = ∫ σ_xx dA, without body
+/// forces).
+TEST(InterfaceForces, HaveTheReferenceValueAtADisc) {
+  std::array<double, 3> errors{};
+  double traction = 0;
+  for (int k = 0; k < 3; ++k) {
+    const TiledArray array(32 << k);
+    const Tensors stress = array.stress({1, 0, 0});
+    const PlaneGrid& grid = array.targets.grid;
+    const auto& names = grid.regions;
+    const int region = static_cast<int>(std::find(names.begin(), names.end(), "inclusion") - names.begin());
+    const auto found = find_inclusions(grid, region, joined_points(grid));
+    const StressForces forces(grid, found);
+    std::vector<PlaneTensor> needed;
+    for (const int cell : forces.cells()) needed.push_back(stress[cell]);
+    const auto all = forces(needed);
+    const Inclusions& inclusions = found.inclusions;
+    const auto disc = std::ranges::min_element(inclusions.centre, {}, [](const Vector2& centre) {
+      return std::hypot(centre[0] - TiledArray::disc[0], centre[1] - TiledArray::disc[1]);
+    });
+    const int wanted = static_cast<int>(disc - inclusions.centre.begin());
+    double before = -10, after = 10, at_before = 0, at_after = 0;
+    for (std::size_t row = 0; row < all.size(); ++row) {
+      const InterfaceNode& node = inclusions.interface[row];
+      if (node.inclusion != wanted) continue;
+      const double angle = std::remainder(node.angle, 2 * std::numbers::pi),
+                   t = 1e-9 * tractions(node, all[row])[0];
+      if (angle <= 0 && angle > before) before = angle, at_before = t;
+      if (angle >= 0 && angle < after) after = angle, at_after = t;
+    }
+    traction = after > before ? (at_before * after - at_after * before) / (after - before) : at_after;
+    errors[k] = std::abs(traction - 70.27563);
+    std::printf("mesh %d: %.5f\n", 32 << k, traction);
+  }
+  report({topic, "traction along the normal at 0 degrees, E_xx = 1, from nodal forces, GPa",
+          "70.2756 +- 0.02", format("{:.4f}", traction), format("{:.2f}", order(errors)), source});
+  EXPECT_LE(errors[2], 0.02);
+  EXPECT_GE(order(errors), 1.5);
 }

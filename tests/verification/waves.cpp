@@ -77,13 +77,13 @@ Outcome one_period(const Model& model, const PlaneWave& wave, long steps) {
   return {wave.speed * (1 - late / (2 * std::numbers::pi)), error};
 }
 
-struct Solid {
+struct Elastic {
   std::string name;
   Material material;
 };
 
 /// The second couples shear to stretch.
-std::vector<Solid> solids() {
+std::vector<Elastic> solids() {
   Material anisotropic{{}, 2700, "anisotropic"};
   anisotropic.stiffness << 60e9, 15e9, 8e9, 15e9, 45e9, -5e9, 8e9, -5e9, 20e9;
   return {{"isotropic", isotropic(45e9, 0.3, 1800)}, {"anisotropic", anisotropic}};
@@ -96,7 +96,7 @@ struct Grid {
 };
 
 /// The wave on 32 × 24 cells and on twice as many with half the step.
-void expect_second_order(const Solid& solid, const Grid& grid, int which) {
+void expect_second_order(const Elastic& solid, const Grid& grid, int which) {
   const auto waves = christoffel(solid.material, wave_number);
   const PlaneWave& wave = waves[which];
   long steps = 0;
@@ -153,7 +153,7 @@ TEST(PlaneWaves, FreeBodyMovesAsASlidingBodyDoes) {
 }
 
 TEST(PlaneWaves, SpeedsOfTheLibraryFollowFromTheChristoffelEquation) {
-  for (const Solid& solid : solids()) {
+  for (const Elastic& solid : solids()) {
     const auto waves = christoffel(solid.material, wave_number);
     const double length = std::hypot(wave_number[0], wave_number[1]);
     const WaveSpeeds speeds = wave_speeds(solid.material, wave_number[0] / length, wave_number[1] / length);
@@ -164,7 +164,7 @@ TEST(PlaneWaves, SpeedsOfTheLibraryFollowFromTheChristoffelEquation) {
 
 /// Second order in h and Δt together; phase speed within the dispersion of linear elements.
 TEST(PlaneWaves, AtAnAngleAreSecondOrder) {
-  for (const Solid& solid : solids())
+  for (const Elastic& solid : solids())
     for (const Grid& grid : {Grid{"P1", Shape::triangles, 0},
                              {"Q1", Shape::quadrilaterals, 0},
                              {"P1 and Q1 distorted", Shape::mixed, 0.1}})

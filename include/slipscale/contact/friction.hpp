@@ -72,6 +72,27 @@ struct RegularisedStrength {
   Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
 };
 
+/// A coefficient that goes from its static to its kinetic value with the slip rate v,
+///     μ(v) = μ_k + (μ_s − μ_k) exp(−|v|/V_c),
+/// in the law of `RegularisedInstantaneous`: in slip τ̇ = −(τ − μ(v) p sign τ*)/T; a node sticks while |τ*| ≤
+/// μ_s p. The slip rate of the step is that in its middle, so that the update is of second order.
+///
+/// Falling friction without memory is ill-posed: where −μ'(v) p exceeds ρ c_s, the resistance of an elastic
+/// half-space to a change of slip rate, all wavelengths grow without bound, the shorter the faster. With T >
+/// 0 none grows faster than (−μ' p/(ρ c_s) − 1)/T.
+struct Exponential {
+  static constexpr bool uses_slip_rate = true;
+  double coefficient;  ///< μ_s
+  double kinetic;      ///< μ_k
+  double slip_rate;    ///< V_c, m/s
+  Relaxation step;
+  Friction operator()(const FrictionDemand& demand, FrictionMemory& memory) const;
+};
+
+/// μ(v) of a slip rate of any sign, and its derivative by |v|, s/m.
+double exponential_coefficient(double still, double kinetic, double over, double slip_rate);
+double exponential_slope(double still, double kinetic, double over, double slip_rate);
+
 /// `rate: slip`: T = L/(|slip rate| + V*), with either threshold (A. M. Rubin, J.-P. Ampuero, J. Geophys.
 /// Res. 112 (2007) B05307).
 template <class Threshold>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ std::vector<BoundaryCondition> read_conditions(const Options& options, const Mes
 
 std::string describe(const BoundaryCondition& condition);
 
+/// Displacement [m] and velocity [m/s] of all local nodes.
+struct InitialFields {
+  std::vector<Vector2> displacement, velocity;
+};
+
 /// How the body starts.
 struct InitialState {
   Vector2 velocity{};     ///< m/s
@@ -55,6 +61,10 @@ struct InitialState {
   std::array<SharedFormula, 2> velocity_formula{};
   SharedFormula pressure_formula{}, shear_formula{};
   std::array<Quantity, 2> displacement{};  ///< added to all that, m
+  std::string file = {};                   ///< of `fields`; empty: none
+  std::optional<double> file_time = {};    ///< of its frame, s
+  std::shared_ptr<const InitialFields> fields =
+      {};  ///< what the file says, added to all that; read by others
 
   Quantity pressure_at_start() const { return {pressure, pressure_formula}; }
   Quantity shear_at_start() const { return {shear, shear_formula}; }

@@ -123,6 +123,10 @@ class EnergyLedger {
     std::span<const double> list;
   };
   std::vector<Term> works() const;
+  /// Of a contact node: friction heat and impact loss, of which sums are the energies of those names, J/m.
+  std::array<double, 2> contact_losses(int k) const {
+    return {heat_.done[k], lifts_ ? impact_.done[k] + lift_.done[k] : impact_.done[k]};
+  }
 
   /// Adds what later steps and rows need of the steps so far to the groups of those names, and a group for
   /// each plate, on the rank that answers for it.

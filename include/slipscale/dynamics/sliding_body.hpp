@@ -9,8 +9,10 @@
 
 #include "slipscale/base/state_group.hpp"
 #include "slipscale/contact/contact_nodes.hpp"
+#include "slipscale/contact/contact_sums.hpp"
 #include "slipscale/dynamics/absorbing_sides.hpp"
 #include "slipscale/dynamics/boundary_nodes.hpp"
+#include "slipscale/dynamics/cell_damping.hpp"
 #include "slipscale/dynamics/ledger.hpp"
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/straight_sides.hpp"
@@ -24,6 +26,17 @@ struct Momentum {
   double mass = 0;     ///< kg/m
   Vector2 linear{};    ///< Σ m v, kg/s
   double angular = 0;  ///< about the middle of the block, counter-clockwise, kg m/s
+};
+
+/// What has happened at a contact node from t = 0 to t_n, over every step; by its tributary length.
+struct ContactTotals {
+  double friction_work = 0;  ///< J/m², as the ledger's friction heat
+  double impact_loss = 0;    ///< J/m², as the ledger's
+  double slip = 0;           ///< m, see ContactSums
+  double pressure_slip = 0;  ///< Pa m
+  double time_closed = 0;    ///< s
+  double impulse = 0;        ///< Pa s, normal
+  double closures = 0;
 };
 
 /// What is looked at of a step once it is made.
@@ -56,6 +69,11 @@ class SlidingBody {
   const Scene& scene() const { return scene_; }
   MPI_Comm comm() const { return comm_; }
 
+  /// Before the first step, or before a restart fills in what `state` lists: keeps sums over every step at
+  /// the contact nodes; the damping work of each cell, where bulk damping is on. The second is collective.
+  void keep_contact_sums() { sums_.start(contact_.size()); }
+  void keep_cell_damping();
+
   // Of an observed step:
   const Vector2* displacement_n() const { return kept_.data(); }  ///< u_n, all local nodes, m
   const Vector2* velocity_n() const { return v_.data(); }         ///< v_n, owned nodes, m/s
@@ -70,7 +88,16 @@ class SlidingBody {
   const BoundaryNodes& boundary_nodes() const { return boundary_; }  ///< at t_n
   /// The boundaries whose nodes are the boundary nodes: with a condition, at the surface, measured; sorted.
   const std::vector<std::string>& boundary_names() const { return boundary_names_; }
-  double surface_velocity() const;                           ///< V at t_n, m/s
+  double surface_velocity() const;  ///< V at t_n, m/s
+  /// Of the contact nodes: where each stands among the regions; what its sums are at t_n, where they are
+  /// kept.
+  const std::vector<ContactPlace>& contact_places() const { return contact_places_; }
+  bool keeps_contact_sums() const { return sums_.kept(); }
+  ContactTotals contact_totals(int k) const;
+  /// Work of bulk damping over volume at t_n in each local cell that this rank owns, J/m³; see CellDamping.
+  /// Only where it is kept. Collective.
+  bool keeps_cell_damping() const { return cell_damping_ != nullptr; }
+  void cell_damping(std::vector<double>& of_cells) const { cell_damping_->density(of_cells); }
   double surface_travel() const { return surface_travel_; }  ///< over the step just made, m
 
   /// Force of the body on its support at an owned node of a boundary, −(K u_n + stiffness damping), N/m.
@@ -107,6 +134,7 @@ class SlidingBody {
   void observe_boundary(const StepCoefficients& step, Observed observed);
 
   void start_force();
+  void set_past(NodalVector& past) const;
   void set_contact_nodes();
   bool lifts() const;                          ///< the surface moves up and down
   double clearance(int k, double time) const;  ///< of contact node k undeformed, m
@@ -133,7 +161,9 @@ class SlidingBody {
   std::unique_ptr<StraightSides> straight_;
   std::unique_ptr<AbsorbingSides> absorbing_;
   ContactNodes contact_;
-  std::vector<ContactPlace> contact_places_;  ///< of the contact nodes
+  std::vector<ContactPlace> contact_places_;   ///< of the contact nodes
+  ContactSums sums_;                           ///< of no nodes where nobody asks
+  std::unique_ptr<CellDamping> cell_damping_;  ///< null where nobody asks
   FrictionLaws law_;
   FrictionLaws start_law_;  ///< at t = 0, where no time has passed since the memory
   BodyAcceleration body_acceleration_;

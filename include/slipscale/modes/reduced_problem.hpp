@@ -13,12 +13,24 @@ struct ReducedMode {
   Eigen::VectorXcd vector;  ///< y, of length 1
 };
 
-/// The problem in a basis Φ with ΦᵀMΦ = I: [K̂ + q I − μφ Ĝ] y = 0, [basis, basis].
+/// The problem in a basis Φ with ΦᵀMΦ = I: [K̂ + q I − μφ Ĝ + δ D̂] y = 0, [basis, basis].
 struct ReducedProblem {
   Eigen::MatrixXd stiffness;  ///< ΦᵀKΦ, 1/s²
   Eigen::MatrixXd friction;   ///< ΦᵀGΦ, 1/s²
+  Eigen::MatrixXd slip{};     ///< ΦᵀDΦ, 1/s; empty where no coefficient depends on the slip rate
 
   Eigen::Index size() const { return stiffness.rows(); }
+  /// What the slip rate makes of y; zero where it makes nothing.
+  Eigen::VectorXcd slip_of(const Eigen::VectorXcd& y) const {
+    if (slip.size() == 0) return Eigen::VectorXcd::Zero(y.size());
+    return slip * y;
+  }
+  /// VᵀNV of a part of the basis.
+  ReducedProblem part(const Eigen::MatrixXd& v) const {
+    ReducedProblem found{v.transpose() * stiffness * v, v.transpose() * friction * v};
+    if (slip.size() > 0) found.slip = v.transpose() * slip * v;
+    return found;
+  }
   /// N(p).
   Eigen::MatrixXcd matrix(const SlidingLaw& law, Complex p) const;
 };

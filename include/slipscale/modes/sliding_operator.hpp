@@ -10,10 +10,11 @@ namespace slipscale {
 struct ClosedNode {
   int node = 0;       ///< local, owned
   double length = 0;  ///< tributary length, m
+  double weight = 1;  ///< its coefficient of friction over that of the law
 };
 
 /// Stiffness and friction of a body that slides steadily, for a set of closed nodes, on the free components:
-///     K = CᵀK̄C,    (G w) in the row of the x of a closed node = ± λ,   λ = (K̄ C w)_y at that node
+///     K = CᵀK̄C,    (G w) in the row of the x of a closed node = ± weight λ,   λ = (K̄ C w)_y at that node
 /// with the stiffness K̄ of all components, the reaction λ of the held y, and + where the surface moves along
 /// +x. K is factorised once, when it is first solved with.
 class SlidingOperator {
@@ -40,7 +41,16 @@ class SlidingOperator {
   template <class Vector, class Factor, class Reaction>
   void add_friction(Factor factor, const Reaction& reaction, Vector& r) const {
     for (std::size_t k = 0; k < sliding_.size(); ++k)
-      if (sliding_[k] >= 0) r[sliding_[k]] += factor * direction_ * reaction[static_cast<Eigen::Index>(k)];
+      if (sliding_[k] >= 0)
+        r[sliding_[k]] += factor * direction_ * closed_[k].weight * reaction[static_cast<Eigen::Index>(k)];
+  }
+  /// μ'(V) λ of the closed nodes where the coefficient depends on the slip rate, N s/m² per m; else empty.
+  std::vector<double> slip_slope;
+  /// Adds to r what `factor` times them makes of a motion `u`(k) along x.
+  template <class Vector, class Factor, class Motion>
+  void add_slip(Factor factor, const Motion& u, Vector& r) const {
+    for (std::size_t k = 0; k < slip_slope.size(); ++k)
+      if (sliding_[k] >= 0) r[sliding_[k]] += factor * slip_slope[k] * u(sliding_[k]);
   }
   /// K⁻¹ of each column. Throws UserError when K cannot be factorised.
   Columns solve(const Columns& right) const;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slipscale/dynamics/scene.hpp"
+#include "slipscale/modes/sliding_law.hpp"
 #include "slipscale/modes/sliding_operator.hpp"
 
 namespace slipscale {
@@ -13,6 +14,7 @@ struct SurfaceNode {
   int node = 0;          ///< local, owned
   double length = 0;     ///< tributary length, m
   double clearance = 0;  ///< height of the undeformed node above the surface, m
+  SteadyCoefficient friction{};
 };
 
 /// The equilibrium of a body under which the surface slides for ever: every closed node slips, its friction

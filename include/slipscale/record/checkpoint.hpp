@@ -29,9 +29,10 @@ struct SceneMarks {
   std::string options;          ///< in effect, as YAML
   std::string mesh, materials;  ///< checksums
   std::string run;              ///< see Recorder::run
+  std::string initial = {};     ///< checksum of the initial state's file; empty: none
 };
 SceneMarks scene_marks(const Options& options, const Mesh& mesh, const std::vector<Material>& materials,
-                       const std::string& run);
+                       const std::string& run, const std::string& initial);
 
 /// Writes a checkpoint under a name of its own, seals and syncs it, and only then gives it the place of the
 /// newest. RunError on all ranks when it cannot; the one that was there stays. `sync`: wait for the disk.
@@ -54,8 +55,9 @@ class Restart {
   /// Whether the files that such a run leaves are there. Collective.
   void expect_files() const;
 
-  /// Throws UserError when mesh or materials are not those of the run.
-  void check(const Mesh& mesh, const std::vector<Material>& materials) const;
+  /// Throws UserError when mesh, materials or the file of the initial state (`initial`: its checksum, or
+  /// empty) are not those of the run.
+  void check(const Mesh& mesh, const std::vector<Material>& materials, const std::string& initial) const;
   /// The run's time step, with an end that may be later than its own. Throws UserError for an earlier one.
   TimeStep time_step(double end) const;
   /// Fills in the arrays of the groups. Collective.
@@ -63,7 +65,7 @@ class Restart {
 
  private:
   MPI_Comm comm_;
-  std::string folder_, path_, note_, mesh_, materials_, run_;
+  std::string folder_, path_, note_, mesh_, materials_, run_, initial_;
   Hdf5File file_;  ///< on rank 0
   RunPosition position_;
   long steps_done_ = 0;

@@ -18,13 +18,14 @@ struct DatasetDescription;
 
 /// What fields.h5 holds at each saved time.
 struct FieldQuantities {
-  bool u = true, v = true, stress = true, strain = false, von_mises = false, principal = false;
+  bool u = true, v = true, stress = true, strain = false, von_mises = false, principal = false,
+       damping_work = false;
 
   bool of_stress() const { return stress || von_mises || principal; }  ///< needs the stress of the cells
 };
 
-/// Reads "u,v,stress,strain,von_mises,principal" or a part of it, in any order. Throws `UserError` naming
-/// `option` on anything else.
+/// Reads "u,v,stress,strain,von_mises,principal,damping_work" or a part of it, in any order. Throws
+/// `UserError` naming `option` on anything else.
 FieldQuantities field_quantities(const std::string& list, const std::string& option = "fields_quantities");
 
 /// fields.h5 and fields.xdmf: the mesh and the fields on it at the saved times; opens in ParaView as it is.
@@ -32,10 +33,10 @@ FieldQuantities field_quantities(const std::string& list, const std::string& opt
 /// /mesh/coordinates [points, 2] m, /mesh/cells, /mesh/region [cells]; /time [frames] s; /frames/00000/u, v
 /// [points, 3] m and m/s, stress [cells, 3] Pa as (xx, yy, xy) with stress_zz [cells] beside it, strain
 /// [cells, 3] with engineering shear, von_mises [cells] and principal_high and principal_low [cells], the
-/// principal stresses in the plane, Pa. stress_tensor [cells, 3, 3] is a view of stress and stress_zz without
-/// data of its own, from which ParaView names the components XX, YY, ZZ and XY; strain_xx, strain_yy and
-/// strain_xy are views of the strain's columns. Of an image with a box only that part. In the order of the
-/// whole mesh: the same data on any number of ranks.
+/// principal stresses in the plane, Pa; damping_work [cells], J/m³ since t = 0. stress_tensor [cells, 3, 3]
+/// is a view of stress and stress_zz without data of its own, from which ParaView names the components XX,
+/// YY, ZZ and XY; strain_xx, strain_yy and strain_xy are views of the strain's columns. Of an image with a
+/// box only that part. In the order of the whole mesh: the same data on any number of ranks.
 ///
 /// Each frame is on the disk before `write` returns, and the XDMF file, replaced as a whole, never names one
 /// that is not. All members are collective; a failure on one rank, a full disk say, throws `RunError` on all.
@@ -54,9 +55,9 @@ class FieldsFile {
   ~FieldsFile();
 
   /// Adds a frame. u and v [owned nodes (ghosts may follow), 2] m and m/s, stress and strain [local cells, 3]
-  /// Pa and 1 as (xx, yy, xy); what is not among the quantities may be null.
+  /// Pa and 1 as (xx, yy, xy), damping_work [local cells] J/m³; what is not among the quantities may be null.
   void write(double time, const double* u, const double* v, const double* stress,
-             const double* strain = nullptr);
+             const double* strain = nullptr, const double* damping_work = nullptr);
 
   std::size_t frames() const;  ///< so far
 

@@ -12,7 +12,7 @@ namespace slipscale {
 /// Seconds that one core takes for a step, and for a row or a frame of each output, of so many nodes; what
 /// tests/bench/features.py prints, rounded. They only have to tell a tenth of a run from much less.
 struct OutputCosts {
-  double step, history, contact, fields;
+  double step, history, contact, fields, interfaces;
 };
 OutputCosts output_costs(double nodes, double contact_nodes);
 

@@ -40,8 +40,9 @@ class HistoryFile {
 /// contact.h5: every contact node, along x, at the saved times, as an `Observer` sees it. Lives on rank 0.
 class ContactFile {
  public:
-  ContactFile(const std::string& path, const Observer& observer, double rows,
-              std::optional<SeriesFile::Continue> continued = {});
+  /// `regions`: their names; `sums`: whether the observations bring what happened over every step.
+  ContactFile(const std::string& path, const Observer& observer, const std::vector<std::string>& regions,
+              bool sums, double rows, std::optional<SeriesFile::Continue> continued = {});
   void write(const Observation& seen, double surface_velocity);
   SeriesFile& series() { return file_; }
 
@@ -51,6 +52,8 @@ class ContactFile {
   int time_, u_, v_y_, gap_, slip_rate_, normal_, tangential_, strength_, status_;
   std::vector<double> u_row_, v_y_row_, gap_row_, slip_row_, normal_row_, tangential_row_, strength_row_;
   std::vector<std::uint8_t> status_row_;
+  std::vector<int> sums_;  ///< of the members of ContactTotals, or none
+  std::vector<double> sums_row_;
 };
 
 }  // namespace slipscale

@@ -31,6 +31,7 @@ struct ContactReading {
   double traction = 0;      ///< tangential, on the body along +x, Pa
   double normal_force = 0;  ///< λ, N/m
   ContactStatus status = ContactStatus::open;
+  ContactTotals totals = {};  ///< where the body keeps them
 };
 
 /// The plate that keeps a side straight, at t_n: along y, and about its middle, counter-clockwise.
@@ -71,6 +72,8 @@ class Observer {
   const std::vector<double>& contact_x() const { return contact_x_; }              ///< rank 0, ascending, m
   const std::vector<double>& contact_y() const { return contact_y_; }              ///< rank 0, m
   const std::vector<double>& tributary_length() const { return contact_length_; }  ///< rank 0, m
+  /// Part of each node's tributary length that belongs to each region, [nodes, regions]; rank 0.
+  const std::vector<double>& region_shares() const { return contact_shares_; }
   int measured() const { return measured_; }  ///< index of the measured boundary; −1 without one
 
  private:
@@ -83,7 +86,7 @@ class Observer {
   OrderedGather boundary_gather_, contact_gather_;
   std::vector<std::vector<int>> members_;  ///< rank 0, by boundary: rows of the gathered boundary nodes
   std::vector<int> along_x_;               ///< rank 0: gathered contact rows in the order of x
-  std::vector<double> contact_x_, contact_y_, contact_length_;
+  std::vector<double> contact_x_, contact_y_, contact_length_, contact_shares_;
   int measured_ = -1;
 };
 

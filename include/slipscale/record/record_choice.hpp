@@ -6,6 +6,7 @@
 
 #include "slipscale/base/options.hpp"
 #include "slipscale/base/vector2.hpp"
+#include "slipscale/files/interface_choice.hpp"
 #include "slipscale/record/fields_file.hpp"
 
 namespace slipscale {
@@ -16,6 +17,7 @@ struct StatisticsChoice {
   std::optional<double> to;   ///< s; absent: the end of the run
   std::optional<long> every;  ///< steps; absent: about a thousand samples
   double quantile = 0.99;
+  bool damping = false;  ///< whether the mean power of bulk damping is among them
 };
 
 /// How often something is recorded: every so many steps, or as near to every so many seconds as whole steps
@@ -44,7 +46,10 @@ struct CheckpointChoice {
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
-  Cadence history, contact;     ///< contact.h5 has about a thousand rows when nothing is given
+  Cadence history, contact;   ///< contact.h5 has about a thousand rows when nothing is given
+  bool contact_sums = false;  ///< whether it has sums over every step
+  std::optional<InterfaceChoice> interfaces;
+  Cadence interface_rows;       ///< about a thousand when nothing is given
   std::vector<Vector2> points;  ///< m
   bool momentum = false;        ///< whether history.h5 has those of body and plates
   Cadence fields;
@@ -55,6 +60,10 @@ struct RecordChoice {
   std::string progress;
   CheckpointChoice checkpoint;
   std::optional<std::string> restart;  ///< folder of the run to go on with
+
+  bool cell_damping() const {  ///< whether the work of bulk damping is to be known cell by cell
+    return quantities.damping_work || (statistics && statistics->damping);
+  }
 };
 
 Schema record_schema();

@@ -13,6 +13,7 @@
 #include "slipscale/record/fields_file.hpp"
 #include "slipscale/record/force_record.hpp"
 #include "slipscale/record/history.hpp"
+#include "slipscale/record/interface_record.hpp"
 #include "slipscale/record/observation.hpp"
 #include "slipscale/record/record_choice.hpp"
 #include "slipscale/record/stress_statistics.hpp"
@@ -60,7 +61,13 @@ class Recorder {
 
  private:
   bool row_due(long n) const { return n % history_every_ == 0 || n == last_; }
-  bool bulk_due(long n) const { return row_due(n) || fields_due(n) || statistics_due(n); }
+  bool bulk_due(long n) const {
+    return row_due(n) || fields_due(n) || statistics_due(n) || interfaces_due(n) || precedes_interfaces(n);
+  }
+  bool interfaces_due(long n) const { return interfaces_ && (n % interfaces_every_ == 0 || n == last_); }
+  bool precedes_interfaces(long n) const {
+    return interfaces_ && interfaces_->needs_step_before() && interfaces_due(n + 1);
+  }
   bool contact_due(long n) const { return has_contact_ && (n % contact_every_ == 0 || n == last_); }
   bool fields_due(long n) const;
   bool statistics_due(long n) const { return window_ && window_->due(n); }
@@ -73,7 +80,10 @@ class Recorder {
   double seconds() const;  ///< of the steps and their output so far
   void observe(long n);
   void record_cells(long n);
-  std::string cadences() const;  ///< for the forecast
+  void record_interfaces(long n);
+  void write_interfaces();                      ///< interfaces.yaml and .xdmf, and the headline
+  std::vector<SeriesFile*> all_series() const;  ///< on rank 0
+  std::string cadences() const;                 ///< for the forecast
   void check(const Observation& seen) const;
   [[noreturn]] void stop(const std::string& fault, const std::string& cure) const;
   void share_faults();
@@ -84,26 +94,31 @@ class Recorder {
   RunPosition position_;  ///< at the restart; of a new run all zero
   RunPosition written_;   ///< as the last checkpoint has it
   ContentMarks history_marks_{"history_contents"}, contact_marks_{"contact_contents"},
-      fields_marks_{"fields_contents"};
+      fields_marks_{"fields_contents"}, interfaces_marks_{"interfaces_contents"};
   const TimeStep time_;
   const long last_, history_every_;
   const bool has_contact_;
   const long contact_every_;
+  const long interfaces_every_;
   const std::optional<long> fields_every_;
   const std::vector<long> field_steps_;   ///< ascending
   const std::vector<double> transverse_;  ///< [local cells] or none
   const std::optional<StatisticsWindow> window_;
   Observer observer_;
   Probes probes_;
+  std::unique_ptr<InterfaceRecord> interfaces_;
   const bool keeps_force_;  ///< whether `force_` records
   ForceRecord force_;
   OutputFolder folder_;                   ///< below all that may refuse the scene: an older run is kept then
   std::unique_ptr<HistoryFile> history_;  ///< on rank 0
   std::unique_ptr<ContactFile> contact_;  ///< on rank 0
+  std::unique_ptr<InterfacesFile> interfaces_file_;  ///< on rank 0
+  std::string interfaces_headline_;                  ///< at the end
   std::unique_ptr<FieldsFile> fields_;
   std::unique_ptr<StressStatistics> statistics_;
   const std::vector<Eigen::Matrix3d> compliance_;       ///< [regions], 1/Pa
   std::vector<std::array<double, 3>> stress_, strain_;  ///< [local cells]
+  std::vector<double> damping_;                         ///< [local cells], J/m³
   Progress progress_;
   std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
   long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written

@@ -21,9 +21,10 @@ struct RunPosition {
   double largest_residual = 0;                                 ///< relative to what flowed
   double rounded_residual = 0;                                 ///< of rows that are rounding
   double contact_auto = 0;  ///< 1 when contact_every is what `auto` made of the first end
-  double even_from = 0;     ///< first row of history.h5 from which on rows are as far apart as now
-  double force_kept = 0;    ///< 1 when the force of every step is among the rest, from the start on
-  double seconds = 0;       ///< s, that the steps so far and their output took
+  double interfaces_every = 0, interfaces_auto = 0, interface_rows = 0;  ///< the same of interfaces.h5
+  double even_from = 0;   ///< first row of history.h5 from which on rows are as far apart as now
+  double force_kept = 0;  ///< 1 when the force of every step is among the rest, from the start on
+  double seconds = 0;     ///< s, that the steps so far and their output took
 
   TimeStep time_step() const;
   void set_time_step(const TimeStep& time);

@@ -21,15 +21,19 @@ struct StatisticsWindow {
 /// Throws UserError for a window that lies outside the run, is turned round or holds no sample.
 StatisticsWindow statistics_window(const StatisticsChoice& choice, const TimeStep& time);
 
-/// Takes the statistics of stress and strain of the cells over a window of the run.
+/// Takes the statistics of stress and strain of the cells over a window of the run, and the mean power of
+/// bulk damping in them.
 class StressStatistics {
  public:
-  StressStatistics(MPI_Comm comm, const Mesh& mesh, const StatisticsWindow& window, double quantile);
+  StressStatistics(MPI_Comm comm, const Mesh& mesh, const StatisticsWindow& window, double quantile,
+                   bool damping = false);
 
   bool due(long n) const { return window_.due(n); }
-  /// State at t_n of a step that is due; stress and strain [local cells][xx, yy, xy], Pa and 1.
+  /// State at t_n of a step that is due; stress and strain [local cells][xx, yy, xy], Pa and 1; where it was
+  /// asked for, what bulk damping took so far [local cells], J/m³.
   void add(double time, const std::vector<std::array<double, 3>>& stress,
-           const std::vector<std::array<double, 3>>& strain);
+           const std::vector<std::array<double, 3>>& strain, const std::vector<double>& damping = {});
+  bool damping() const { return damping_; }
   std::size_t samples() const { return stress_.samples(); }
 
   /// For a checkpoint: what the samples so far left; `resume` after the arrays were filled in.
@@ -54,6 +58,9 @@ class StressStatistics {
   double from_ = 0, to_ = 0;
   std::array<double, 3> carried_{};  ///< samples, from and to, for a checkpoint
   std::vector<double> rows_;
+  const bool damping_;
+  std::vector<double> damping_first_,
+      damping_last_;  ///< [owned cells] at the first and the last sample, J/m³
 };
 
 }  // namespace slipscale

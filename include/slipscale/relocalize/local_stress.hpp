@@ -10,6 +10,10 @@
 
 namespace slipscale {
 
+/// What mends stresses that are no numbers, which sound tensors make of a damaged run alone.
+inline constexpr const char* cure_of_overflow =
+    "strains of the homogeneous run are too large: run slide anew";
+
 /// Strain and stress of the phases at one rank's share of the target cells, from the strain of the macro
 /// cells: relocalised, and put into equilibrium next to the contact where that is asked for.
 class LocalStress {

@@ -6,6 +6,7 @@
 
 #include "slipscale/base/options.hpp"
 #include "slipscale/base/vector2.hpp"
+#include "slipscale/files/interface_choice.hpp"
 #include "slipscale/relocalize/strain_recovery.hpp"
 #include "slipscale/relocalize/stress_comparison.hpp"
 
@@ -19,6 +20,7 @@ struct RelocalisationChoice {
   Recovery recovery = Recovery::nodal;
   std::optional<double> strip;  ///< m, depth of the boundary layer that is corrected
   std::vector<Vector2> points;  ///< m
+  std::optional<InterfaceChoice> interfaces;
 };
 
 Schema relocalisation_schema();

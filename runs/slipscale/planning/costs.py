@@ -9,9 +9,11 @@ PER_NODE = 7e-9  # s of a step and node, in cache (tests/bench/README.md); befor
 PER_STEP = 1.5e-6  # s of a step, whatever the mesh
 START = 0.2  # s
 HISTORY_ROW, CONTACT_ROW = 400, 68  # B of a row of history.h5, and of one of contact.h5 for each contact node
+CONTACT_SUMS = 56  # B more with the sums over every step
 CONTACT_ROWS = 1000  # of contact_every auto
 CHECKPOINT = 330  # B of a node
-FRAME = {"u": 24, "v": 24, "stress": 36, "strain": 36, "von_mises": 12, "principal": 24}  # B of a node, cells being 1.5
+FRAME = {"u": 24, "v": 24, "stress": 36, "strain": 36, "von_mises": 12, "principal": 24,
+         "damping_work": 12}  # B of a node, cells being 1.5
 ROW_IN_MEMORY = 600  # B that a run keeps of a row of the history, for its summary
 
 
@@ -76,7 +78,8 @@ def disk(options, nodes, contact_nodes, end, step, row=HISTORY_ROW):
     """B that a run leaves."""
     rows = end / float(options["history_interval"])
     frame = sum(FRAME.get(name.strip(), 24) for name in str(options.get("fields_quantities", "u,v,stress")).split(","))
-    return (rows * row + contact_rows(options, end, step) * contact_nodes * CONTACT_ROW + CHECKPOINT * nodes +
+    sums = 0 if str(options.get("contact_sums", "true")).lower() in ("false", "no", "0", "off") else CONTACT_SUMS
+    return (rows * row + contact_rows(options, end, step) * contact_nodes * (CONTACT_ROW + sums) + CHECKPOINT * nodes +
             frames_of(options, end, step) * nodes * frame)
 
 

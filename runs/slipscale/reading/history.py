@@ -88,14 +88,23 @@ class ContactHistory:
     """contact.h5: the contact nodes, sorted along x, at every saved time. Also a context manager: it stays open.
 
     time [m] s, x [nc] m. `read(name, rows)` gives the chosen rows (a slice) of `u` [m, nc, 2] m, `slip_rate` m/s,
-    `normal_traction` (>= 0 in compression), `tangential_traction` Pa or `status` (OPEN, STICK, SLIP), all [m, nc].
+    `normal_traction` (>= 0 in compression), `tangential_traction` Pa or `status` (OPEN, STICK, SLIP), all [m, nc], and
+    of the sums over every step since t = 0, where the run kept them (`-contact_sums`): `sums/friction_work` and
+    `sums/impact_loss` J/m², `sums/slip_distance` m, `sums/pressure_slip` Pa m, `sums/time_closed` s, `sums/impulse`
+    Pa s, `sums/closures`. tributary_length [nc] m and region_share [nc, regions] with region_names; None in files of
+    earlier versions.
     """
 
     def __init__(self, folder):
         self._file = open_hdf5(Path(folder) / "contact.h5")
         self.x = read_dataset(self._file, "x")
         self.y = self._file["y"][()] if self.holds("y") else None
-        growing = [name for name, dataset in self._file.items() if grows(dataset)]
+        self.tributary_length = self._file["tributary_length"][()] if self.holds("tributary_length") else None
+        self.region_share = self._file["region_share"][()] if self.holds("region_share") else None
+        names = self._file.attrs.get("regions", "")
+        self.region_names = (names.decode() if isinstance(names, bytes) else str(names)).split("\n")
+        self.sums = [f"sums/{name}" for name in self._file.get("sums", ())]
+        growing = [*(name for name in self._file if name != "sums" and grows(self._file[name])), *self.sums]
         self.rows = min((len(self._file[name]) for name in growing), default=0)
         self.time = read_dataset(self._file, "time")[:self.rows]
 

@@ -29,6 +29,8 @@ class Costs(unittest.TestCase):
     def test_disk(self):
         options = {"history_interval": 1e-8, "contact_every": 100, "fields_interval": 1e-5}
         self.assertAlmostEqual(disk(options, 1000, 11, 1e-4, 1e-9, row=100),
+                               1e4 * 100 + 1e3 * 11 * 124 + 330e3 + 11 * 84e3)
+        self.assertAlmostEqual(disk({**options, "contact_sums": False}, 1000, 11, 1e-4, 1e-9, row=100),
                                1e4 * 100 + 1e3 * 11 * 68 + 330e3 + 11 * 84e3)
 
 
