@@ -26,7 +26,7 @@ def row_of(case, knob, run):
     row = {**run, "knob": knob, "run": name, **{entry: last[entry] for entry in ("status", "reason")}}
     if last["status"] != "ok":
         return row
-    window = [float(time) for time in config["cases"][case]["window"]]
+    window = tuple(float(time) for time in config["cases"][case]["window"])
     row.update(measured(folders[name], window, put_back),
                **costs_of(folders[name], ended(folders[name]), [(put_back, last)] if put_back else []))
     reference = reference_of(config, run) if knob in config["knobs"] else {**run, "model": "whole"}

@@ -1,5 +1,7 @@
 """What a run is off from its reference, with the scatter over time, and what it cost."""
 
+from functools import cache
+
 from slipscale.measuring.distance import spectrum_distance
 from slipscale.measuring.regime import costs, friction_spectrum, measures
 from slipscale.mistakes import Mistake
@@ -10,6 +12,7 @@ BULK = ("displacement", "normal_force")
 PHASES = ("matrix", "inclusion")
 
 
+@cache
 def values_of(folder, window, relocalised=None):
     """Pairs of value and standard error by name; stresses of regions that have frames, those of the folder `relocalised`
     where the microstructure was put back."""
@@ -22,6 +25,11 @@ def values_of(folder, window, relocalised=None):
             except Mistake:  # a region that is not there, as of a block without inclusions
                 continue
     return found
+
+
+@cache
+def scatter_of_spectrum(folder, window):
+    return cycle_distance(folder, folder, window, "spectrum")[1]
 
 
 def measured(folder, window, relocalised=None):
@@ -44,7 +52,7 @@ def errors_of(folder, reference, window, relocalised=None):
             columns[f"{name}_off"] = value / true - 1
             columns[f"{name}_bar"] = ((error / true)**2 + (true_error / true)**2)**0.5
     columns["spectrum_off"] = spectrum_distance(friction_spectrum(folder, window), friction_spectrum(reference, window))
-    columns["spectrum_bar"] = cycle_distance(reference, reference, window, "spectrum")[1]
+    columns["spectrum_bar"] = scatter_of_spectrum(reference, window)
     return dict(sorted(columns.items()))
 
 

@@ -70,6 +70,7 @@ def panel(axes, rows, cost, error):
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(True, which="major", alpha=0.3)
     few_ticks(axes.xaxis)
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def draw(rows, cost, errors):
