@@ -27,6 +27,7 @@ FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "beta2 .6": {"time_beta2": 0.6},
     "a second material": {"material_inclusion_young": 80e9, "material_inclusion_poisson": 0.25,
                           "material_inclusion_density": 1800},
+    "a graded material": {"material_all_young": "45e9*(1 + 0.5*y/H)"},
     "Coulomb's law": {"friction_law": "coulomb", "friction_coefficient": 0.5},
     "regularised law, threshold instantaneous": FRICTION,
     "regularised law, threshold regularised": {**FRICTION, "friction_threshold": "regularized"},

@@ -70,15 +70,15 @@ Cycle cycle_of(const std::vector<double>& path, double step) {
 
 TEST(FallingFriction, LetsSteadySlidingGrow) {
   for (const double speed : {0.5, 1.5}) {
-    const auto expected = exact_exponent(speed), fine = found_exponent(speed, 2.5e-3),
-               coarse = found_exponent(speed, 5e-3);
+    const auto expected = exact_exponent(speed), fine = found_exponent(speed, 5e-3),
+               coarse = found_exponent(speed, 1e-2);
     EXPECT_GT(expected.real(), 0.03);
-    EXPECT_LE(std::abs(fine - expected), 2e-5);
+    EXPECT_LE(std::abs(fine - expected), 5e-5);
     const double order = std::log2(std::abs(coarse - expected) / std::abs(fine - expected));
     EXPECT_GT(order, 1.8) << speed;
-    report({"One degree of freedom, m = k = 1, mu p from 1 to 0.4 over 1 m/s, T = 0.3 s, dt 2.5 ms",
+    report({"One degree of freedom, m = k = 1, mu p from 1 to 0.4 over 1 m/s, T = 0.3 s, dt 5 ms",
             format("steady sliding at {:g} m/s: growth; frequency, 1/s", speed),
-            format("{:.5f}; {:.5f} within 2e-5", expected.real(), expected.imag()),
+            format("{:.5f}; {:.5f} within 5e-5", expected.real(), expected.imag()),
             format("{:.5f}; {:.5f}", fine.real(), fine.imag()), format("{:.1f}", order),
             "root of (1 + pT)(p^2 + 1) = d p"});
   }
