@@ -213,10 +213,14 @@ std::vector<std::string> remarks_on_first_step(const SlidingBody& body) {
   if (!initial.fields && initial.displacement[0].is_zero() && initial.displacement[1].is_zero()) return {};
   const LeftForce left = left_force(body);
   if (!(left.size > out_of_equilibrium * left.scale)) return {};
+  const std::string part =
+      left.scale > 0
+          ? format("{:.2g} of the largest that stress makes on the side of a cell", left.size / left.scale)
+          : "and there is no stress";
   return {format(
       "the initial state is not in equilibrium: a force of {:.3g} N/m is left on the node at x = {:g} m, y = "
-      "{:g} m, {:.2g} of the largest that stress makes on the side of a cell; the body starts to move by it",
-      left.size, left.place[0], left.place[1], left.size / left.scale)};
+      "{:g} m, {}; the body starts to move by it",
+      left.size, left.place[0], left.place[1], part)};
 }
 
 std::vector<std::string> remarks_at_end(const SlidingBody& body) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slipscale/base/error.hpp"
+#include "slipscale/base/physical_range.hpp"
 
 namespace slipscale {
 
@@ -16,10 +17,10 @@ Schema interface_schema() {
       {"interfaces_region", Kind::text, "", absent, range::any,
        "region whose connected parts are the inclusions: writes interfaces.h5, the tractions along their "
        "interfaces over time, and interfaces.yaml, their peaks"},
-      {"interfaces_normal_strength", Kind::real, "Pa", absent, range::positive,
+      {"interfaces_normal_strength", Kind::real, "Pa", absent, range::physical_positive,
        "tension that debonds an interface; with the next gives the debonding index (<normal>/strength)^2 + "
        "(shear/strength)^2"},
-      {"interfaces_shear_strength", Kind::real, "Pa", absent, range::positive,
+      {"interfaces_shear_strength", Kind::real, "Pa", absent, range::physical_positive,
        "shear traction that debonds it"}};
 }
 

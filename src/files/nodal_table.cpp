@@ -45,6 +45,7 @@ std::vector<Column> head_of(const std::string& where, const std::string& line) {
   for (const auto& [column, name] : {std::pair{x, "x"}, std::pair{y, "y"}})
     if (std::ranges::find(order, column) == order.end())
       throw UserError(where + " has no column '" + name + "'; it needs " + wanted);
+  if (order.size() == 2) throw UserError(where + " has nothing but places; it needs " + wanted);
   return order;
 }
 
@@ -70,9 +71,9 @@ std::vector<Row> rows_of(const std::string& where, const std::string& text) {
       const char *begin = items[k].data(), *end = begin + items[k].size();
       double& value = row[order[k]];
       const auto [stop, fault] = std::from_chars(begin, end, value);
-      if (fault != std::errc() || stop != end || !std::isfinite(value))
-        throw UserError(
-            format("{}, line {}: '{}' is no finite number; write one as 1.5e-6", where, number, items[k]));
+      if (fault != std::errc() || stop != end || !(std::abs(value) < 1e100))
+        throw UserError(format("{}, line {}: '{}' is no number below 1e100; write one as 1.5e-6", where,
+                               number, items[k]));
     }
   }
   if (rows.empty()) throw UserError(where + " holds no points; it needs " + wanted + ", and a line a point");

@@ -78,7 +78,7 @@ PetscErrorCode enough(EPS eps, PetscInt step, PetscInt most, PetscInt found, Pet
 
 /// As many as a plate of this area and its mean wave speeds has below ω, after H. Weyl, and some more: two
 /// kinds of waves, each with A ω²/(4π c²) modes and an edge term. Too few are mended by a second run.
-PetscInt expected_count(const Model& model, double highest) {
+double expected_count(const Model& model, double highest) {
   const Mesh& mesh = model.mesh;
   double sum = 0;
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
@@ -86,7 +86,7 @@ PetscInt expected_count(const Model& model, double highest) {
     sum += mesh.regions[r].area * (1 / (c.fast * c.fast) + 1 / (c.slow * c.slow));
   }
   const double modes = sum * highest * highest / (4 * std::numbers::pi);
-  return static_cast<PetscInt>(std::ceil(1.1 * modes + 2 * std::sqrt(modes))) + 10;
+  return std::ceil(1.1 * modes + 2 * std::sqrt(modes)) + 10;
 }
 
 struct Found {
@@ -137,9 +137,17 @@ RealModes real_modes(const SlidingOperator& body, double highest, int count) {
   if (count > total)
     throw UserError(format("-modes_basis is {}, but the body has only {} free components; give at most that",
                            count, total));
+  const double expected = expected_count(body.model(), highest);
+  constexpr double far_beyond = 10;
+  if (count == 0 && expected > far_beyond * static_cast<double>(total))
+    throw UserError(
+        format("-modes_to asks for about {:.2g} modes, of a mesh with {} free components; give a frequency "
+               "below {:.2g} Hz",
+               expected, total,
+               highest / (2 * std::numbers::pi) * std::sqrt(static_cast<double>(total) / expected)));
   Inverse inverse{body, body.free().mass().cwiseSqrt(), count > 0 ? 0 : 1 / (highest * highest),
                   std::numeric_limits<double>::infinity()};
-  PetscInt wanted = count > 0 ? count : std::min(total, expected_count(body.model(), highest));
+  PetscInt wanted = count > 0 ? count : static_cast<PetscInt>(std::min<double>(total, expected));
   OwnedMat shell;
   OwnedEPS eps;
   Found found = run(body, inverse, wanted, eps, shell);

@@ -43,6 +43,8 @@ MISTAKES = {
         {"friction_law": "exponential", "friction_kinetic": 0.3, "friction_slip_rate": 1, "friction_threshold": None,
          "modes_time": "1e-7:1e-7:1e-6"}),
     "no highest frequency": Mistake(["-modes_to ", "needed here but not given"], {"modes_to": None}),
+    "highest frequency far beyond the mesh": Mistake(["-modes_to asks for about", "free components", "below"],
+                                                     {"modes_to": 1e12}),
     "more modes than unknowns": Mistake(["-modes_count is 1000", "free components", "at most"],
                                         {"modes_count": 1000}),
     "more real modes than unknowns": Mistake(["-modes_basis is 1000", "free components", "at most"],

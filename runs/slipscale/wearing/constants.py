@@ -20,7 +20,9 @@ def by_region(option, text, regions, units=""):
         if name not in regions:
             raise Mistake(f"{option} names the region {name!r}, which does not touch the surface or is none: there are "
                           f"{', '.join(regions)}.")
-        found[name] = _number(option, number, units)
+        if name in found:
+            raise Mistake(f"{option} names the region {name!r} twice: give each once.")
+        found[name] = _number(f"{option} of {name!r}", number, units)
     if missing := [name for name in regions if name not in found]:
         raise Mistake(f"{option} has nothing for the region {missing[0]!r}, which touches the surface: add "
                       f"{missing[0]}=….")
