@@ -90,6 +90,7 @@ class Wear(unittest.TestCase):
             ("--energy", "-1"): "--energy is '-1': give a number above 0, in m\\^3/J",
             ("--energy", "steel=1"): "the region 'steel', .* there are matrix, inclusion",
             ("--energy", "matrix=1"): "nothing for the region 'inclusion'",
+            ("--energy", "matrix=1,matrix=2"): "names the region 'matrix' twice",
             ("--energy", "matrix=1,2"): "give one number, or one for each region",
             HEAT[:4]: "--conductivity without --heat-capacity",
             (*HEAT[:-1], "1.5"): "--share is 1.5",
