@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
+from slipscale.parser import Parser
 from slipscale.reading import read_yaml
 
 NAMES = {"effective": "friction_coefficient", "mean": "friction_mean"}
@@ -28,13 +29,17 @@ def coefficient_of_run(folder):
     return None if given is None else float(given)
 
 
-def main(arguments):
-    outcome, model, scene = arguments
-    folder = Path(outcome).parent
+def main():
+    parser = Parser("phases.coefficient", __doc__, "python3 -m")
+    parser.add_argument("outcome", help="outcome.yaml of a run of homogenize", type=Path)
+    parser.add_argument("model", help="which coefficient", choices=sorted(NAMES))
+    parser.add_argument("scene", help="the file to write", type=Path)
+    asked = parser.parse_args()
+    folder = asked.outcome.parent
     # What could not be homogenised fails as the run that needs it does.
     there = (folder / "effective.yaml").is_file()
-    Path(scene).write_text(f"friction_coefficient: {coefficient(folder, model)!r}\n" if there else "{}\n")
+    asked.scene.write_text(f"friction_coefficient: {coefficient(folder, asked.model)!r}\n" if there else "{}\n")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main())

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 
+#include "global_heap.hpp"
 #include "object_header.hpp"
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -46,6 +47,7 @@ Hdf5File open_to_continue(const std::string& path) {
   require(std::filesystem::exists(path, error), "it is not there");
   recover_file(path, true);
   require(H5Fis_hdf5(path.c_str()) > 0, "it is no HDF5 file or damaged");
+  require(global_heaps_are_sound(path), "it is cut short or damaged");
   const auto look = [](hid_t, const char*, const H5O_info_t*, void*) -> herr_t { return 0; };
   Hdf5File file;
   try {

@@ -112,7 +112,7 @@ MISTAKES = {
     "no coefficient": missing("friction_coefficient"),
     "coefficient negative": value("friction_coefficient", -0.5, ">= 0"),
     "coefficient no number": value("friction_coefficient", "0,5", "decimal point"),
-    "law nonsense": value("friction_law", "coulom", "none, coulomb or regularized", "did you mean coulomb?"),
+    "law nonsense": value("friction_law", "coulom", "none, coulomb, regularized or exponential", "did you mean coulomb?"),
     "speed zero": Mistake(["-surface_speed is 0", "give -friction_time"], {"surface_speed": 0}),
     "time and length": Mistake(["-friction_time contradicts -friction_length"], {"friction_time": 6e-7}),
     "time with the slip rate": Mistake(["-friction_time", "-friction_rate slip"],

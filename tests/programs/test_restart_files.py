@@ -51,6 +51,23 @@ class Contents(InFolder):
                                  arguments=("-time_end", 6e-6), ranks=2 if name == "time" else 1)
                     shutil.copy(self.folder / "kept" / file, self.folder / "out" / file)
 
+    def test_a_heap_without_end_is_refused(self):
+        """What is free in a global heap, said to be of size 0: HDF5 would go round in it for ever (HDF5 File Format
+        Specification 2.0, III.E)."""
+        self.run_scene(SCENE)
+        path = self.folder / "out" / "fields.h5"
+        data = bytearray(path.read_bytes())
+        heap = data.index(b"GCOL\1\0\0\0")
+        at = heap + 16
+        while number := int.from_bytes(data[at:at + 2], "little"):
+            size = int.from_bytes(data[at + 8:at + 16], "little")
+            at += 16 + (size + 7) // 8 * 8
+        self.assertEqual((number, at < heap + int.from_bytes(data[heap + 8:heap + 16], "little")), (0, True))
+        data[at + 8:at + 16] = bytes(8)
+        path.write_bytes(data)
+        self.refused("fields.h5' cannot be continued: it is cut short or damaged",
+                     "put back the file that the interrupted run left", arguments=("-time_end", 6e-6))
+
     def test_behind_the_checkpoint_do_not_count(self):
         """Of a run that was killed, or whose last row lies between the others."""
         self.run_scene(SCENE, time_end=4.01e-6)
