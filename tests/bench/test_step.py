@@ -59,7 +59,7 @@ class Scripts(unittest.TestCase):
 
     def test_features(self):
         rows = self.said("features.py", self.build, "-size", "2e-4", "-steps", "50", "-repeat", "1").splitlines()
-        self.assertEqual(len(rows), 2 + 2 + 19)
+        self.assertEqual(len(rows), 2 + 2 + 27)
         self.assertEqual({row.count("|") for row in rows[2:]}, {6})
 
     def test_runs(self):

@@ -150,7 +150,7 @@ class Faults(InScratch):
 
     def check_file(self, found, whole, name):
         grow = [key for key in found if not key.startswith(("mesh/", "frames/")) and
-                not key.endswith(("/x", "/y")) and key not in ("x", "y", "tributary_length")]
+                not key.endswith(("/x", "/y")) and key not in ("x", "y", "tributary_length", "region_share")]
         rows = {len(found[key]) for key in grow}
         self.assertEqual(len(rows), 1, f"{name}: {rows}")
         rows = rows.pop()

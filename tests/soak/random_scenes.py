@@ -14,6 +14,7 @@ NOT_DRAWN = {
     "checkpoint_minutes": "runs last seconds", "time_wall": "the soak's own",
     "material_file": "drawn as material_<region>_file",
     "parameters_<parameter>": "of formulas, which are not drawn",
+    **dict.fromkeys(("initial_file", "initial_time"), "another run's: tests/programs/test_initial_file.py"),
 }
 
 
@@ -167,6 +168,10 @@ class Scene:
             self.number("friction_coefficient", 0.5)
         if law == "regularized":
             self.memory()
+        if law == "exponential":
+            self.number("friction_kinetic", 0.3)
+            self.number("friction_slip_rate", 0.5)
+            self.number(*self.chance.choice((("friction_time", 6e-7), ("friction_length", 1e-6))))
         if law != "none" and self.often(0.2):
             self.phase(law)
 
@@ -176,6 +181,9 @@ class Scene:
         if len(regions) > 1:
             return
         self.number(f"friction_{regions[0]}_coefficient", 0.5)
+        if law == "exponential":
+            self.number(f"friction_{regions[0]}_kinetic", 0.3)
+            self.number(f"friction_{regions[0]}_slip_rate", 0.5)
         if law != "regularized":
             return
         if self.options.get("friction_rate") == "slip" or self.often(0.5):
@@ -234,6 +242,9 @@ class Scene:
         self.rows("history", steps, 400)
         if self.rubs and self.often(0.7):
             self.rows("contact", steps, 200)
+            if self.often(0.3):
+                self.word("contact_sums")
+        self.interfaces(steps)
         if self.often(0.4):
             self.put("history_boundary", self.chance.choice(("top", "bottom") + (() if self.periodic else ("left",))))
         if self.often(0.4):
@@ -247,6 +258,17 @@ class Scene:
         if self.often(0.3):
             self.put("run_note", "drawn by the soak")
         self.put("checkpoint_every", max(1, steps // self.chance.randint(2, 9)))
+
+    def interfaces(self, steps):
+        regions = regions_of(self.mesh)
+        if len(regions) == 1 or self.often(0.7):
+            return
+        self.put("interfaces_region", self.chance.choice(regions))
+        if self.often(0.8):
+            self.rows("interfaces", steps, 100)
+        if self.often(0.6):
+            self.number("interfaces_normal_strength", 5e6)
+            self.number("interfaces_shear_strength", 1e7)
 
     def rows(self, file, steps, most):
         every = max(1, steps // self.chance.randint(most // 10, most))
@@ -280,6 +302,8 @@ class Scene:
             self.put("statistics_every", max(1, steps // self.chance.randint(20, 200)))
         if self.often(0.5):
             self.number("statistics_quantile")
+        if self.often(0.3) and any(self.options.get(f"damping_{kind}") for kind in ("mass", "stiffness")):
+            self.word("statistics_damping")
 
 
 # Where one run may differ from another of the same bits.

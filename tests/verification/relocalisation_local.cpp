@@ -92,9 +92,7 @@ TEST(Relocalisation, HasTheReferenceValuesInADisc) {
           format("{:.4f}", edge[0]), format("{:.2f}", order(interface_errors)), source});
 }
 
-/// Recovered from the nodal forces of the disc's own cells: σ_xx at θ = 0, between the two nodes beside it,
-/// and its mean over the disc's outline against that over the disc (∮ x t_x ds = ∫ σ_xx dA, without body
-/// forces).
+/// Recovered from the nodal forces of the disc's own cells: σ_xx at θ = 0, between the two nodes beside it.
 TEST(InterfaceForces, HaveTheReferenceValueAtADisc) {
   std::array<double, 3> errors{};
   double traction = 0;
@@ -125,10 +123,8 @@ TEST(InterfaceForces, HaveTheReferenceValueAtADisc) {
     }
     traction = after > before ? (at_before * after - at_after * before) / (after - before) : at_after;
     errors[k] = std::abs(traction - 70.27563);
-    std::printf("mesh %d: %.5f\n", 32 << k, traction);
+    EXPECT_LE(errors[k], 0.08 / (1 << k)) << (32 << k);  // of order one; at one place it changes sign
   }
   report({topic, "traction along the normal at 0 degrees, E_xx = 1, from nodal forces, GPa",
-          "70.2756 +- 0.02", format("{:.4f}", traction), format("{:.2f}", order(errors)), source});
-  EXPECT_LE(errors[2], 0.02);
-  EXPECT_GE(order(errors), 1.5);
+          "70.2756 +- 0.02", format("{:.4f}", traction), "-", source});
 }
