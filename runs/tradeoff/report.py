@@ -6,6 +6,8 @@ from slipscale.reports.publish import failures, folded, publish
 from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import markdown, read_csv
 from tradeoff.ends import ENDS, ends_of
+from tradeoff.front import within
+from tradeoff.picture import OTHER_SCENES
 
 ERRORS = ("friction", "frequency", "amplitude", "stick", "open", "velocity", "displacement", "stress_matrix",
           "stress_inclusion")
@@ -14,6 +16,8 @@ OPTIONS = ("case", "cell", "size", "safety", "beta2", "damping", "storage", "eve
 TURNED = {"cells": ("cell",), "sizes": ("size",), "steps": ("safety",), "beta2": ("beta2",), "damping": ("damping",),
           "storage": ("storage",), "cadence": ("every",), "models": ("model",), "heights": ("height",),
           "together": ("cell", "size", "safety")}
+
+ALLOWED = {"frequency": (0.01, 0.003, 0.001), "spectrum": (0.2, 0.1, 0.05), "stress_inclusion": (0.1, 0.03, 0.01)}
 
 
 def off(row, name):
@@ -67,6 +71,20 @@ def ends_table(rows):
                      "more than two scatters [%]", "seconds"], lines)
 
 
+def cheapest_table(rows):
+    """The cheapest run of each case within an error, of those that simulate the same scene."""
+    lines = []
+    for name, allowed in ALLOWED.items():
+        for case in dict.fromkeys(row["case"] for row in rows):
+            of = [row for row in rows if row["case"] == case and row["knob"] not in OTHER_SCENES]
+            if not any(row.get(f"{name}_off") is not None for row in of):
+                continue
+            found = [within(of, "seconds", f"{name}_off", most) for most in allowed]
+            lines.append([name.replace("_", " "), case, *("-" if row is None else f"{row['seconds']:.2g}: {row['knob']} {setting(row)}"
+                                                          for row in found)])
+    return markdown(["error in", "case", *("wide", "middle", "narrow")], lines)
+
+
 def text_of(rows):
     ok = [row for row in rows if row["status"] == "ok"]
     knobs = [row for row in ok if row["knob"] in TURNED]
@@ -75,6 +93,10 @@ def text_of(rows):
             "core, start included.\n\n")
     for case in dict.fromkeys(row["case"] for row in knobs):
         text += folded(f"{case}: every knob", knobs_table([row for row in knobs if row["case"] == case])) + "\n"
+    if knobs:
+        text += ("What a second buys: seconds and setting of the cheapest run of the same scene within an error, wide, middle and narrow: " +
+                 "; ".join(f"{name.replace('_', ' ')} {', '.join(f'{100 * most:g}' for most in allowed)} %"
+                           for name, allowed in ALLOWED.items()) + ".\n\n" + cheapest_table(knobs) + "\n")
     if extremes := [row for row in ok if row["knob"] not in TURNED]:
         text += ("Where the homogenised block is no longer worth it: off by more than other seeds are apart, or 2 %.\n\n" +
                  extremes_table(extremes))

@@ -24,7 +24,7 @@ from pathlib import Path
 
 from slipscale.mistakes import Mistake
 from slipscale.parser import Parser
-from slipscale.planning import answer, pilots, refusals, results
+from slipscale.planning import answer, demands, pilots, refusals, results
 from slipscale.planning.case import case_of, options_of
 from slipscale.planning.costs import fitted_price, undamped
 from slipscale.planning.proposal import LONGEST, Search, scaling_of
@@ -70,6 +70,9 @@ class Planning:
         if reason := refusals.of_law(case):
             raise Refused(reason)
         top, demanded = case.longest_size()
+        if self.workshop.regions:
+            _, drawn = pilots.coarsest_drawn(self.workshop, self.asked.sizes or top)
+            demands.of_regions(self.wishes, demands.regions_of(next(iter(drawn.values())).folder))
         if given := self.asked.sizes:
             if reason := refusals.of_memory(case, 0, most, top, given):
                 raise Refused(reason)
@@ -246,8 +249,7 @@ def planning_of(asked, changes):
     manuals = {name: manual for name, manual in manuals_of(programs.folder()).items() if name != "homogenize"}
     scene, recipe = with_changes(options_of(asked.scene), options_of(asked.recipe), changes, manuals)
     wishes = wishes_of(asked.want) if asked.want else list(DEFAULT)
-    if any(wish.kind == "trajectory" for wish in wishes) and not asked.before:
-        raise Mistake("a trajectory is compared over a window before squeal saturates: give it, --before FROM TO, s")
+    demands.of_scene(wishes, scene, asked.before)
     case = case_of(scene, recipe, asked.window, asked.before, [cell.strip() for cell in asked.cells.split(",")])
     return Planning(case, wishes, seconds_of(asked.budget) if asked.budget else None, asked.output, asked)
 
