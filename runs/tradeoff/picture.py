@@ -21,7 +21,7 @@ from tradeoff.front import front, size_of
 
 # Told apart by form as well as by colour; no two have both in common.
 KNOBS = {"cells": ("kind of cells", BLUE, "o"), "sizes": ("size of cells", ORANGE, "s"),
-         "steps": ("part of the stable step", GREEN, "^"), "together": ("cells, size and step together", SKY, "."),
+         "steps": ("part of the stable step", GREEN, "^"), "together": ("cells, size and step together", SKY, "d"),
          "beta2": ("beta2 of the scheme", VERMILION, "v"), "damping": ("damping", PURPLE, "D"),
          "storage": ("single or double storage", SKY, "P"), "cadence": ("rows of the history", BLACK, "x"),
          "homogeneous": ("homogenised block", VERMILION, "*"), "relocalised": ("… and relocalised", VERMILION, "X"),
