@@ -91,6 +91,11 @@ class Plan(unittest.TestCase):
             self.assertIn(cure, said)
             self.assertEqual(said.count("\n"), 1, said)
             self.assertFalse(self.pilots())
+        for word, value in (("--sizes", "0"), ("--sizes", "nan"), ("--jobs", "0"), ("--cells", "squares"), ("--cells", "grid,grid")):
+            said, _ = self.plan("--want", "friction:3%", word, value, code=2)
+            self.assertRegex(said, rf"^slipscale plan: {word}: .*\n$")
+        said, _ = self.plan("--want", "friction:3%", "--sizes", "1", "-friction_law", "none", code=2)  # larger than the block
+        self.assertRegex(said, r"^slipscale plan: no(ne of the pilot meshes| mesh of) .*\n$")
 
 
 if __name__ == "__main__":

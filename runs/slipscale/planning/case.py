@@ -45,8 +45,8 @@ def speeds(options):
                 stiffness = [0, 0, 2 * shear * (1 - poisson) / (1 - 2 * poisson), shear]
             found[region] = math.sqrt(stiffness[2] / float(density)), math.sqrt(stiffness[3] / float(density))
         except (KeyError, TypeError, ValueError, IndexError) as error:
-            raise Mistake(f"the scene does not say young, poisson and density of {region}, its stiffness, or a "
-                          "file of them") from error
+            raise Mistake(f"the scene does not say, in numbers, young, poisson and density of {region}, its stiffness, "
+                          "or a file of them") from error
     if not found:
         raise Mistake("the scene names no material: give material: {all: {young, poisson, density}}")
     return found
@@ -100,11 +100,11 @@ class Case:
 
     def longest_size(self):
         """The coarsest cells that show what there is, m, and what demands them."""
-        height, width = (float(self.recipe[f"block_{side}"]) for side in ("height", "width"))
+        height, width = (number(self.recipe, f"block_{side}") for side in ("height", "width"))
         found = [(min(height, width) / ACROSS_HEIGHT, f"{ACROSS_HEIGHT} cells across the block")]
         for name, value in self.recipe.items():
             if name == "diameter" or name.endswith("_diameter"):
-                found.append((float(value) / float(self.recipe.get("aspect", 1)) / ACROSS_FEATURE,
+                found.append((number(self.recipe, name) / float(self.recipe.get("aspect", 1)) / ACROSS_FEATURE,
                               f"{ACROSS_FEATURE:g} cells across an inclusion"))
         if "layer_period" in self.recipe:
             found.append((0.5 * float(self.recipe["layer_period"]) / ACROSS_FEATURE,
@@ -174,15 +174,22 @@ def memory_of(scene):
     return float(scene["friction_length"]) / speed if speed > 0 else math.inf
 
 
+def number(options, name):
+    """An option as a float. Raises Mistake."""
+    try:
+        return float(options[name])
+    except (TypeError, ValueError) as error:
+        raise Mistake(f"{name} is {options[name]!r}, and plan needs a number there") from error
+
+
 def case_of(scene, recipe, window=None, before=None, cells=None):
     """The Case of flat options. Raises Mistake."""
     for name in ("block_width", "block_height"):
         if name not in recipe:
             raise Mistake(f"the recipe has no {name}, without which no mesh can be drawn at several sizes")
-    try:
-        end = float(scene["time_end"])
-    except (KeyError, ValueError) as error:
-        raise Mistake("the scene has no time_end, from which the window of averages is taken") from error
+    if "time_end" not in scene:
+        raise Mistake("the scene has no time_end, from which the window of averages is taken")
+    end = number(scene, "time_end")
     window = tuple(window or (0.5 * end, end))
     if not 0 <= window[0] < window[1]:
         raise Mistake(f"the window {window[0]:g} to {window[1]:g} s is none")

@@ -1,4 +1,5 @@
-"""What wishes demand of scene and mesh, so that what cannot be told is said before any pilot run. All raise Mistake."""
+"""What wishes demand of scene, mesh and pilots, so that what cannot be told is said as early as it is known. All raise
+Mistake."""
 
 import difflib
 
@@ -31,6 +32,13 @@ def of_regions(wishes, known):
             near = difflib.get_close_matches(region, known, 1, 0.6)
             raise Mistake(f"there is no region {region}, whose stress is wished for: the mesh has {' and '.join(known)}" +
                           (f"; is {STRESS}{near[0]} meant?" if near else ""))
+
+
+def of_size(wish, size):
+    """`size`: of the result, as pilots found it: what is allowed has to be less."""
+    if wish.allowed(size) >= 1:
+        raise Mistake(f"{wish} is no less than the result itself, which is {size:.3g} in the pilot runs: is "
+                      f"{wish.name}:{wish.absolute:g}% meant?")
 
 
 def regions_of(folder):

@@ -25,12 +25,12 @@ from pathlib import Path
 from slipscale.mistakes import Mistake
 from slipscale.parser import Parser
 from slipscale.planning import answer, demands, pilots, refusals, results
-from slipscale.planning.case import case_of, options_of
+from slipscale.planning.case import SEPARATE, case_of, options_of
 from slipscale.planning.costs import fitted_price, undamped
 from slipscale.planning.proposal import LONGEST, Search, scaling_of
 from slipscale.planning.wishes import Wish, seconds_of, wishes_of
 from slipscale.running import programs
-from slipscale.running.sweep import owner, values_of
+from slipscale.running.sweep import check, owner, values_of
 from slipscale.running.sweep_command import paired
 from slipscale.running.sweep_plan import manuals_of
 
@@ -39,6 +39,7 @@ MINUTE = 60.0  # s: a proposed run below it may have pilots of up to as much
 TENTH = 0.1
 MOST_TIERS = 4
 FAR = 2.0  # a proposal that is so many times finer than the finest pilot asks for another
+CELLS = ("grid", "triangle", "quadrilateral")
 DEFAULT = (Wish("friction", 0.01), Wish("frequency", 0.01))  # of a budget without wishes: equally important
 
 
@@ -86,6 +87,8 @@ class Planning:
                               f"{demanded} ask for cells of {1e6 * coarsest:.3g} µm. More time for them helps, --pilots "
                               f"{1.2 * price / 60:.3g}min, or a shorter run, -time_end")
         found, self.left_out = pilots.first_pilots(self.workshop, coarsest)
+        if not found:
+            raise Mistake(f"none of the pilot meshes can be drawn: {self.left_out[0]}")
         return found
 
     def run(self, wanted):
@@ -216,6 +219,10 @@ def with_changes(scene, recipe, changes, manuals):
     for name, text in changes:
         value = values_of(text, takes_list=True)[0] if "," in text else values_of(text)[0]
         (recipe if owner(name, manuals) == "morphology" else scene)[name] = value
+    for options, program in ((scene, "slide"), (recipe, "morphology")):
+        for name, value in options.items():
+            if name not in SEPARATE:
+                check(name, value, {program: manuals[program]})
     return scene, recipe
 
 
@@ -241,6 +248,13 @@ def parsed(words):
     if not (asked.want or asked.budget):
         parser.error("say what you want, as --want friction:1%, or a --budget, as 10min")
     asked.pilots = seconds_of(asked.pilots)
+    asked.cells = [cell.strip() for cell in asked.cells.split(",")]
+    if set(asked.cells) - set(CELLS) or len(set(asked.cells)) < len(asked.cells):
+        parser.error(f"--cells: {', '.join(CELLS)}, each once, are to choose from")
+    if asked.sizes is not None and not 0 < asked.sizes < float("inf"):
+        parser.error(f"--sizes: a length in m, above 0, is wanted, as 0.5e-3, not {asked.sizes:g}")
+    if asked.jobs < 1:
+        parser.error(f"--jobs: at least one pilot run at a time is wanted, not {asked.jobs}")
     return asked, changes
 
 
@@ -250,7 +264,7 @@ def planning_of(asked, changes):
     scene, recipe = with_changes(options_of(asked.scene), options_of(asked.recipe), changes, manuals)
     wishes = wishes_of(asked.want) if asked.want else list(DEFAULT)
     demands.of_scene(wishes, scene, asked.before)
-    case = case_of(scene, recipe, asked.window, asked.before, [cell.strip() for cell in asked.cells.split(",")])
+    case = case_of(scene, recipe, asked.window, asked.before, asked.cells)
     return Planning(case, wishes, seconds_of(asked.budget) if asked.budget else None, asked.output, asked)
 
 

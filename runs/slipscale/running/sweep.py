@@ -153,7 +153,7 @@ def check(name, value, manuals):
     if name in SET_BY_THE_STUDY:
         raise Mistake(f"-{name} cannot be set: {SET_BY_THE_STUDY[name]}.")
     kind = kind_of(name, manuals[owner(name, manuals)]) or ""
-    if kind.startswith(("a number", "a whole number")) and not isinstance(number_or_text(word(value)), (int, float)):
+    if kind.startswith(("a number", "a whole number")) and "formula" not in kind and not isinstance(number_or_text(word(value)), (int, float)):
         raise Mistake(f"-{name} {word(value)} is not {kind}.")
 
 

@@ -1,4 +1,4 @@
-"""What cannot be told is said before any pilot run, in one sentence that names the cure."""
+"""What cannot be told is said as early as it is known, in one sentence that names the cure."""
 
 import unittest
 
@@ -28,6 +28,11 @@ class Demands(unittest.TestCase):
             demands.of_regions(wishes_of("stress_fibre:5%"), ["matrix", "inclusion"])
         with self.assertRaisesRegex(Mistake, "is stress_inclusion meant"):
             demands.of_regions(wishes_of("stress_inclusions:5%"), ["matrix", "inclusion"])
+
+    def test_of_the_pilots(self):
+        demands.of_size(wishes_of("velocity:0.1")[0], 0.5)
+        with self.assertRaisesRegex(Mistake, "no less than the result itself, which is 0.5 .* is velocity:2% meant"):
+            demands.of_size(wishes_of("velocity:2")[0], 0.5)
 
 
 if __name__ == "__main__":
