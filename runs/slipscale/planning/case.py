@@ -14,7 +14,9 @@ SAFETY = 0.9  # of slide
 HISTORY_ROWS = 8000  # of a run whose scene counts rows in steps
 LONGER_STEP = 1.3  # than expected from the largest element: at most, between rows of the history
 ACROSS_HEIGHT, ACROSS_FEATURE, ACROSS_MEMORY = 10, 2.5, 2  # cells, at least: c_s T over 2 cells, or a spurious mode grows
+GAP = 0.15  # of the smallest inclusion: between inclusions, of a recipe that gives neither gaps nor a size that they follow
 SEPARATE = ("history_every", "time_step", "mesh_file", "mesh_refine", "output_folder", "progress")
+GAPS = ("gap", "clearance")
 OUTPUTS = ("fields_", "statistics_", "contact_", "checkpoint_")
 
 
@@ -102,16 +104,26 @@ class Case:
         """The coarsest cells that show what there is, m, and what demands them."""
         height, width = (number(self.recipe, f"block_{side}") for side in ("height", "width"))
         found = [(min(height, width) / ACROSS_HEIGHT, f"{ACROSS_HEIGHT} cells across the block")]
-        for name, value in self.recipe.items():
-            if name == "diameter" or name.endswith("_diameter"):
-                found.append((number(self.recipe, name) / float(self.recipe.get("aspect", 1)) / ACROSS_FEATURE,
-                              f"{ACROSS_FEATURE:g} cells across an inclusion"))
+        if feature := self.feature():
+            found.append((feature / ACROSS_FEATURE, f"{ACROSS_FEATURE:g} cells across an inclusion"))
         if "layer_period" in self.recipe:
             found.append((0.5 * float(self.recipe["layer_period"]) / ACROSS_FEATURE,
                           f"{ACROSS_FEATURE:g} cells across a layer"))
         if self.memory:
             found.append((self.memory_size(), "friction's memory, c_s T over two cells"))
         return min(found)
+
+    def feature(self):
+        """The smallest inclusion, across it, m; None without any."""
+        return min((number(self.recipe, name) / float(self.recipe.get("aspect", 1)) for name in self.recipe
+                    if name == "diameter" or name.endswith("_diameter")), default=None)
+
+    def gap(self):
+        """What gaps are that the recipe leaves open, m: they would follow the size, and every size have a drawing of its
+        own. None where nothing is open."""
+        if not self.is_random or all(str(self.recipe.get(name, "auto")) != "auto" for name in GAPS):
+            return None
+        return float(self.recipe["size"]) if "size" in self.recipe else GAP * self.feature() if self.feature() else None
 
     def memory_size(self):
         """The largest cells of which c_s T spans two, m."""
@@ -130,10 +142,8 @@ class Case:
         found.update(cell=cell, size=float(f"{size:.9g}"))
         if seed is not None:
             found["seed"] = seed
-        if self.is_random:  # by default they follow the size, and every size would have a drawing of its own
-            for name in ("gap", "clearance"):
-                if str(found.get(name, "auto")) == "auto":
-                    found[name] = own
+        if gap := self.gap():
+            found.update({name: gap for name in GAPS if str(found.get(name, "auto")) == "auto"})
         return found
 
     def scene_of(self, windows=1.0, interval=None):
