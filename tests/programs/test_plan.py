@@ -49,7 +49,9 @@ class Plan(unittest.TestCase):
         self.assertEqual(found["status"], "ok")
         before = self.pilots()
         self.assertGreaterEqual(len(before), 7)
-        done = subprocess.run([os.environ["SLIPSCALE_SLIDE"], "-options_file_yaml", "plan/scene.yaml"], cwd=self.folder,
+        command = said.partition("run it:  ")[2].splitlines()[0].split()
+        self.assertEqual(Path(command[0]).resolve(), Path(os.environ["SLIPSCALE_SLIDE"]).resolve())
+        done = subprocess.run(command, cwd=self.folder,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=200)
         self.assertEqual(done.returncode, 0, done.stdout)
         summary = yaml.safe_load((self.folder / "plan" / "run" / "summary.yaml").read_text())

@@ -34,7 +34,7 @@ def panel(axes, planning, proposal, wish):
                       color=COLOURS.get(cell, BLACK), label=f"pilots, {cell}", capsize=2)
     most = max(10 * proposal.seconds, planning.budget or 0)
     axes.plot(*(part * scale for part, scale in zip(planning.search.front(wish.name, most), (1, 100))), color=GREEN,
-              label="best of each price: bound")
+              label="best of each price for this result alone: bound")
     mean, deviation = result.fit.expected(best.h, best.step, best.number)
     axes.plot(proposal.seconds, 100 * best.bounds[wish.name], "*", color=VERMILION, markersize=15, label="proposed: bound")
     axes.plot(proposal.seconds, max(100 * LEAST, 100 * abs(mean)), "_", color=VERMILION, markersize=14,
