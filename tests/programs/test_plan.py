@@ -87,9 +87,10 @@ class Plan(unittest.TestCase):
         self.plan("--want", "friction:1%", "-friction_cofficient", "0.3", code=2)
 
     def test_what_cannot_be_told_is_said_before_any_pilot(self):
+        (self.folder / "scene.yaml").write_text(SCENE.replace(", points: [2.5e-3, 0]", ""))
         for wish, cure in (("friction:3%,stress_inclusion:5%", "no region inclusion, whose stress is wished for: the mesh has matrix"),
                            ("velocity:3%", "name one, as -history_points")):
-            said, _ = self.plan("--want", wish, "--sizes", "0.5e-3", "-history_points", "[]", code=2)
+            said, _ = self.plan("--want", wish, "--sizes", "0.5e-3", code=2)
             self.assertIn(cure, said)
             self.assertEqual(said.count("\n"), 1, said)
             self.assertFalse(self.pilots())
