@@ -30,7 +30,7 @@ def of_regions(wishes, known):
         region = wish.name.removeprefix(STRESS)
         if wish.kind == "stress" and region not in known:
             near = difflib.get_close_matches(region, known, 1, 0.6)
-            raise Mistake(f"there is no region {region}, whose stress is wished for: the mesh has {' and '.join(known)}" +
+            raise Mistake(f"there is no region {region}, whose stress is wished for: the mesh has {', '.join(known)}" +
                           (f"; is {STRESS}{near[0]} meant?" if near else ""))
 
 

@@ -24,7 +24,7 @@ class Demands(unittest.TestCase):
 
     def test_of_the_mesh(self):
         demands.of_regions(wishes_of("friction:1%,stress_inclusion:5%"), ["matrix", "inclusion"])
-        with self.assertRaisesRegex(Mistake, "no region fibre, whose stress is wished for: the mesh has matrix and inclusion$"):
+        with self.assertRaisesRegex(Mistake, "no region fibre, whose stress is wished for: the mesh has matrix, inclusion$"):
             demands.of_regions(wishes_of("stress_fibre:5%"), ["matrix", "inclusion"])
         with self.assertRaisesRegex(Mistake, "is stress_inclusion meant"):
             demands.of_regions(wishes_of("stress_inclusions:5%"), ["matrix", "inclusion"])
