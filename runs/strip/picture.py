@@ -19,8 +19,10 @@ from slipscale.pictures.drawing import write_picture
 from slipscale.running.table import read_csv
 
 PANELS = {"friction_off": "friction T / N, difference", "frequency_off": "dominant frequency, difference [%]",
-          "spectrum_distance": "spectrum of friction, distance", "mean_stress_distance": "σ_yy near the contact, mean: distance",
-          "deviation_distance": "its deviation over time: distance", "amplitude_off": "amplitude of friction, difference [%]"}
+          "spectrum_distance": "spectrum of friction, distance",
+          "mean_stress_distance": "σ_yy near the contact, mean: distance",
+          "deviation_distance": "its deviation over time: distance",
+          "amplitude_off": "amplitude of friction, difference [%]"}
 PERCENT = {"frequency_off": 100, "amplitude_off": 100}
 SERIES = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"))
 SEEDS = {"friction_off": ("friction", False), "frequency_off": ("frequency", True), "amplitude_off": ("amplitude", True)}
@@ -57,7 +59,8 @@ def draw(rows):
                 at = [height for height in heights[:-1] if values(own, height, name)]
                 found = [values(own, height, name) for height in at]
                 for height, of in zip(at, found) if mesh == MAIN else ():
-                    axes.plot([height + shift] * len(of), of, marker, color=colour, alpha=0.35, markersize=4, markeredgewidth=0)
+                    axes.plot([height + shift] * len(of), of, marker, color=colour, alpha=0.35, markersize=4,
+                              markeredgewidth=0)
                 if at:
                     axes.plot([height + shift for height in at], [np.median(of) for of in found], marker, color=colour,
                               linestyle="-" if mesh == MAIN else "--", markerfacecolor=colour if mesh == MAIN else "white",

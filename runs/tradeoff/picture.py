@@ -68,8 +68,8 @@ def panel(axes, rows, cost, error):
     axes.set(xscale="log", yscale="log")
     bars = sorted(row[bar] for row in rows)
     if bars:
-        axes.axhspan(SMALLEST / 10, max(SMALLEST, PERCENT * bars[len(bars) // 2]), color=BLACK, alpha=0.08, linewidth=0, zorder=0,
-                     label="less than the scatter over time (median)")
+        axes.axhspan(SMALLEST / 10, max(SMALLEST, PERCENT * bars[len(bars) // 2]), color=BLACK, alpha=0.08, linewidth=0,
+                     zorder=0, label="less than the scatter over time (median)")
         axes.set_ylim(bottom=0.5 * min(sizes(rows, error)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(True, which="major", alpha=0.3)

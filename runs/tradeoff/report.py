@@ -61,7 +61,8 @@ def extremes_table(rows):
         lines.append([young, f"{other[0]['height'] / diameter:g}", f"{100 * missed['friction']:.2g}",
                       f"{100 * spread['friction']:.2g}", f"{100 * missed['frequency']:.2g}",
                       f"{100 * spread['frequency']:.2g}", f"{max(row['spectrum_off'] for row in other):.2g}",
-                      f"{cheaper:.2g}", sum(not is_true(row["settled"]) for row in of), "yes" if all(missed[name] <= max(spread[name], 0.02) for name in missed) else "no"])
+                      f"{cheaper:.2g}", sum(not is_true(row["settled"]) for row in of),
+                      "yes" if all(missed[name] <= max(spread[name], 0.02) for name in missed) else "no"])
     return markdown(["inclusions [GPa]", "discs per height", "friction off [%]", "seeds apart [%]", "frequency off [%]",
                      "seeds apart [%]", "spectrum", "times cheaper", "not settled", "worth it"], lines)
 
@@ -103,16 +104,17 @@ def text_of(rows):
     for case in dict.fromkeys(row["case"] for row in knobs):
         text += folded(f"{case}: every knob", knobs_table([row for row in knobs if row["case"] == case])) + "\n"
     if knobs:
-        text += ("What a second buys: seconds and setting of the cheapest run of the whole microstructure within an error, wide, "
-                 "middle and narrow: " + "; ".join(f"{name.replace('_', ' ')} {', '.join(f'{100 * most:g}' for most in allowed)} %"
-                                      for name, allowed in ALLOWED.items()) + ".\n\n" + cheapest_table(knobs) + "\n")
+        errors = "; ".join(f"{name.replace('_', ' ')} {', '.join(f'{100 * most:g}' for most in allowed)} %"
+                           for name, allowed in ALLOWED.items())
+        text += ("What a second buys: seconds and setting of the cheapest run of the whole microstructure within an error, "
+                 f"wide, middle and narrow: {errors}.\n\n{cheapest_table(knobs)}\n")
     if extremes := [row for row in ok if row["knob"] not in TURNED]:
         text += ("Where the homogenised block is no longer worth it: off by more than two seeds are apart, or 2 %; the most of "
                  "both seeds, and how many of the four runs had not settled.\n\n" +
                  extremes_table(extremes))
     if any(row["knob"] in ENDS for row in knobs):
-        text += ("\nWhat step, storage and the moduli of the homogenised block change on one mesh: of the contact's quantities that "
-                 "which changes most, those that change by more than twice their scatter over time, of the bulk's the "
+        text += ("\nWhat step, storage and the moduli of the homogenised block change on one mesh: of the contact's quantities "
+                 "that which changes most, those that change by more than twice their scatter over time, of the bulk's the "
                  "most; seconds over those of `from`.\n\n" + ends_table(knobs))
     if failed := list(failures(rows, OPTIONS)):
         text += "\n" + folded("Runs that failed", "".join(f"- {line}\n" for line in failed))

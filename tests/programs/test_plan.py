@@ -88,13 +88,15 @@ class Plan(unittest.TestCase):
 
     def test_what_cannot_be_told_is_said_before_any_pilot(self):
         (self.folder / "scene.yaml").write_text(SCENE.replace(", points: [2.5e-3, 0]", ""))
-        for wish, cure in (("friction:3%,stress_inclusion:5%", "no region inclusion, whose stress is wished for: the mesh has matrix"),
+        for wish, cure in (("friction:3%,stress_inclusion:5%", "no region inclusion, whose stress is wished for: the mesh has "
+                            "matrix"),
                            ("velocity:3%", "name one, as -history_points")):
             said, _ = self.plan("--want", wish, "--sizes", "0.5e-3", code=2)
             self.assertIn(cure, said)
             self.assertEqual(said.count("\n"), 1, said)
             self.assertFalse(self.pilots())
-        for word, value in (("--sizes", "0"), ("--sizes", "nan"), ("--jobs", "0"), ("--cells", "squares"), ("--cells", "grid,grid")):
+        for word, value in (("--sizes", "0"), ("--sizes", "nan"), ("--jobs", "0"), ("--cells", "squares"),
+                            ("--cells", "grid,grid")):
             said, _ = self.plan("--want", "friction:3%", word, value, code=2)
             self.assertRegex(said, rf"^slipscale plan: {word}: .*\n$")
         said, _ = self.plan("--want", "friction:3%", "--sizes", "1", "-friction_law", "none", code=2)  # larger than the block

@@ -3,7 +3,7 @@
 from slipscale.parser import Parser
 from slipscale.planning.case import SEPARATE
 from slipscale.planning.wishes import seconds_of
-from slipscale.running.sweep import check, owner, values_of
+from slipscale.running.sweep import check, owner, parameters_in, values_of
 from slipscale.running.sweep_command import paired
 
 CELLS = ("grid", "triangle", "quadrilateral")
@@ -17,7 +17,7 @@ def with_changes(scene, recipe, changes, manuals):
     for options, program in ((scene, "slide"), (recipe, "morphology")):
         for name, value in options.items():
             if name not in SEPARATE:
-                check(name, value, {program: manuals[program]})
+                check(name, value, {program: manuals[program]}, parameters_in(scene))
     return scene, recipe
 
 

@@ -216,7 +216,8 @@ def with_stress(options, regions, window, strip=False):
     if not regions:
         return options
     kept = {name: value for name, value in options.items() if not name.startswith("fields_")}
-    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "stress" if strip else "von_mises"}
+    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"),
+            "fields_quantities": "stress" if strip else "von_mises"}
 
 
 def found_files(options, folder):

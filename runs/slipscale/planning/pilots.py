@@ -166,7 +166,8 @@ class Workshop:
 
 
 def kept(folder, command):
-    """The outcome of the same command before, if it was a good one: what failed may have done so for a cause that is gone."""
+    """The outcome of the same command before, if it was a good one: what failed may have done so for a cause that is
+    gone."""
     known = Trials.outcome(folder, command)
     return known if known and known["status"] == "ok" else None
 

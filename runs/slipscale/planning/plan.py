@@ -69,7 +69,8 @@ class Planning:
             raise Refused(reason)
         top, demanded = case.longest_size()
         if (gap := case.gap()) and "size" not in case.recipe:
-            self.say(f"the recipe leaves gap or clearance open, and gives no size that they follow: {gap:.3g} m at all sizes")
+            self.say(f"the recipe leaves gap or clearance open, and gives no size that they follow: {gap:.3g} m at all "
+                     "sizes")
         if self.workshop.regions:
             _, drawn = pilots.coarsest_drawn(self.workshop, self.asked.sizes or top)
             demands.of_regions(self.wishes, demands.regions_of(next(iter(drawn.values())).folder))

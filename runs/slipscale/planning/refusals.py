@@ -14,8 +14,8 @@ SHORT = ("friction's memory is shorter than two cells: c_s T is {length:.3g} m (
          "{most:.3g}. A longer memory helps, T of {enough:.3g} s or more, or more time for the pilots, --pilots {wanted}")
 SHORT_SIZES = ("friction's memory is shorter than two cells of {given:.3g} m: c_s T is {length:.3g} m ({slow:.4g} m/s times "
                "{time:.3g} s). Cells of at most {size:.3g} m help, or T of {enough:.3g} s or more")
-DRAWING = ("only {count} meshes of {cell} cells show one drawing and run, and an order needs {fewest}: {left_out}. Wider gap and "
-           "clearance of the recipe help, or finer pilots, --sizes")
+DRAWING = ("only {count} meshes of {cell} cells show one drawing and run, and an order needs {fewest}: {left_out}. Wider "
+           "gap and clearance of the recipe help, or finer pilots, --sizes")
 REGIME = ("the regime changes between the pilot meshes: {seen}. What a coarse mesh does says nothing about a fine one; finer "
           "pilots help, --sizes {size:.3g}, or more friction memory or damping, which make the small waves weaker")
 UNSETTLED = ("the window has not settled: {seen} of {count} runs change from its first half to its second. A later window "

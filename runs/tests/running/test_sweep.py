@@ -95,9 +95,11 @@ class Manuals(unittest.TestCase):
             sweep.manual("/nowhere/slide")
 
     def test_what_every_run_would_refuse(self):
-        for name, value in (("friction_coefficient", "a lot"), ("boundary_top_pressure", [1, 2]), ("seed", "1:x:2")):
+        for name, value in (("friction_coefficient", "a lot"), ("boundary_top_pressure", [1, 2]), ("seed", "1:x:2"),
+                            ("surface_speed", "fast"), ("surface_speed", "V")):
             with self.assertRaisesRegex(Mistake, f"-{name} .* is not a"):
                 sweep.check(name, value, MANUALS)
+        sweep.check("surface_speed", "V", MANUALS, sweep.parameters_in({"parameters_V": 2, "time_end": 1}))
         with self.assertRaisesRegex(Mistake, "gives each run a folder"):
             sweep.check("output_folder", "here", MANUALS)
         for name, value in (("friction_coefficient", "0.5"), ("friction_coefficient", -1), ("time_step", "auto"),
