@@ -1,7 +1,7 @@
 """Error over cost: what the pilots gave, what any price buys, what is proposed, the wish and the budget."""
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from slipscale.pictures.drawing import plt
@@ -44,7 +44,10 @@ def panel(axes, planning, proposal, wish):
         axes.axvline(planning.budget, color=BLACK, linestyle=":", linewidth=1, label="budget")
     axes.set(xscale="log", yscale="log", xlabel="seconds of one core", ylabel="error [%]",
              title=f"{wish.name.replace('_', ' ')}\nits mesh and step: {100 * mean:+.2g} ± {100 * deviation:.2g} %")
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
     axes.grid(True, which="major", alpha=0.3)
 
 
