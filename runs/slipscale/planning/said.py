@@ -4,6 +4,7 @@ import math
 import shlex
 from pathlib import Path
 
+from slipscale.planning import refusals
 from slipscale.planning.errors import LEVEL
 from slipscale.running import programs
 
@@ -63,6 +64,9 @@ def text_of(planning, found, seconds):
     if found.single:
         lines.append(f"single storage takes {found.single:.2f} of the seconds" +
                      ("" if found.storage == "single" else ": not worth it") + ".")
+    if others := otherwise(planning):
+        lines.append("other morphologies do otherwise: " + ", ".join(
+            f"seed {pilot.seed} {pilot.regime} at {pilot.frequency / 1e3:.0f} kHz" for pilot in others))
     if planning.passed_over:
         lines.append("passed over, another regime than on finer meshes: " +
                      ", ".join(pilot.name for pilot in planning.passed_over))
@@ -71,6 +75,13 @@ def text_of(planning, found, seconds):
               f"{seconds:.0f} s", "", f"run it:  {command_of(planning)}",
               f"all of this: {planning.out / 'plan.yaml'}, {planning.out / 'plan.png'}"]
     return "\n".join(lines)
+
+
+def otherwise(planning):
+    """Pilots of other seeds whose regime or frequency is another one; none where no wish is of the cycle."""
+    finest = planning.of(planning.cells[0])[-1]
+    return [pilot for pilot in planning.of(planning.cells[0], "morphology") if not refusals.alike(pilot, finest)] \
+        if any(wish.kind != "trajectory" for wish in planning.wishes) else []
 
 
 def command_of(planning):
