@@ -65,13 +65,15 @@ def tried(planning, options, steps, storage, folder):
 
 
 def per_step(planning, options, steps, storage):
-    """(start s, s a step, the longer outcome): from two short runs."""
+    """(start s, s a step, the longer outcome and its folder): from two short runs, by the steps that they took, whose step
+    is not quite the expected one."""
     folders = [planning.out / "pilots" / "tried" / f"{storage}-{count}" for count in (steps, 4 * steps)]
     outcomes = [tried(planning, options, count, storage, folder) for count, folder in zip((steps, 4 * steps), folders)]
     if failed := next((one for one in outcomes if one["status"] != "ok"), None):
         raise Mistake(f"the proposed run does not start: {failed['reason']}")
-    slope = max(1e-9, (outcomes[1]["cpu_seconds"] - outcomes[0]["cpu_seconds"]) / (3 * steps))
-    return max(0.0, outcomes[0]["cpu_seconds"] - steps * slope), slope, outcomes[1], folders[1]
+    few, many = (int(Summary(folder).headline["steps"]) for folder in folders)
+    slope = max(1e-9, (outcomes[1]["cpu_seconds"] - outcomes[0]["cpu_seconds"]) / (many - few))
+    return max(0.0, outcomes[0]["cpu_seconds"] - few * slope), slope, outcomes[1], folders[1]
 
 
 def proposal_of(planning):
