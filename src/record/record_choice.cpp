@@ -100,7 +100,7 @@ Schema record_schema() {
   const Schema own = {
       {"interfaces_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of interfaces.h5; auto makes about a thousand rows, in a short run one in "
-       "twenty steps, and a restart with a "
+       "25 steps, and a restart with a "
        "later "
        "end keeps their distance"},
       {"interfaces_interval", Kind::real, "s", absent, range::positive,
@@ -108,7 +108,7 @@ Schema record_schema() {
       {"output_folder", Kind::text, "", "out", range::any,
        "folder of the run; an older run in it is replaced once the scene has proved right, and kept in its "
        "folder `replaced` if it was interrupted and could go on"},
-      {"history_every", Kind::integer, "1", "20", range::at_least_one,
+      {"history_every", Kind::integer, "1", "25", range::at_least_one,
        "steps between the rows of history.h5"},
       {"history_interval", Kind::real, "s", absent, range::positive,
        "time between them, in place of history_every; rounded to whole steps"},
@@ -122,7 +122,7 @@ Schema record_schema() {
        "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
       {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
        "steps between the rows of contact.h5; auto makes about a thousand rows, in a short run one in "
-       "twenty steps, and a restart with a later "
+       "25 steps, and a restart with a later "
        "end "
        "keeps their distance"},
       {"contact_interval", Kind::real, "s", absent, range::positive,
