@@ -23,7 +23,7 @@ import time
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.planning import answer, pilots, refusals, results
 from slipscale.planning.case import case_of, options_of
 from slipscale.planning.costs import fitted_price, undamped
@@ -223,9 +223,9 @@ def parsed(words):
     parser.add_argument("--want", help="results and how accurate they shall be, as friction:1%%,frequency:0.5%%")
     parser.add_argument("--budget", help="time of one core, as 90s, 10min or 2h: what accuracy does it buy?")
     parser.add_argument("--output", default="out/plan", help="folder (default: out/plan)")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="of averages, s; default: the second "
+    parser.add_argument("--window", action=Window, metavar=("FROM", "TO"), help="of averages, s; default: the second "
                         "half of the run")
-    parser.add_argument("--before", nargs=2, type=float, metavar=("FROM", "TO"), help="of trajectories, s")
+    parser.add_argument("--before", action=Window, metavar=("FROM", "TO"), help="of trajectories, s")
     parser.add_argument("--cells", default="grid,triangle", help="kinds that are tried, the first most (default: "
                         "grid,triangle)")
     parser.add_argument("--sizes", type=float, metavar="SIZE", help="of the coarsest pilot mesh, m (default: by its price)")
