@@ -177,6 +177,12 @@ std::string InterfacesFile::place_of(const InterfacePeak& peak) const {
 }
 
 std::string InterfacesFile::headline() const {
+  constexpr std::size_t few = 10;
+  const std::size_t rows = file_.rows();
+  return finding() + (rows > few ? "" : format(" ({} row{} looked at)", rows, rows == 1 ? " was" : "s were"));
+}
+
+std::string InterfacesFile::finding() const {
   const auto& peaks = peaks_.front();
   const auto first = std::ranges::min_element(peaks, {}, [](const InclusionPeaks& p) {
     return p.debonds.row < 0 ? std::numeric_limits<double>::infinity() : p.debonds.time;
