@@ -116,7 +116,7 @@ class Phases(InScratch):
             # Two stripes of matrix of three edges, and the three nodes between two stripes.
             self.assertEqual(out.count("-friction_kinetic is above -friction_coefficient, the static one, at 8 of 13 contact nodes"),
                              1, out)
-        del own["friction_inclusion_length"], own["friction_inclusion_coefficient"]
+        own = {"friction_matrix_coefficient": 0.4, "friction_matrix_time": 5e-7}
         out = self.run_scene({**SCENE, **own, **FALLING, **short}).out
         self.assertNotIn("acts nowhere", out)
         self.assertNotIn("rises with", out)

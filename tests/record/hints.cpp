@@ -103,6 +103,8 @@ TEST(Hints, OutputsThatTakeMoreThanATenth) {
 TEST(Hints, OutputsWithNothingBetweenStartAndEnd) {
   Case seldom;
   seldom.step.count = 500;
+  seldom.record.history.option = "history_interval";
+  seldom.record.contact.option = "contact_interval";
   expect_only(
       seldom.hints(),
       "nothing between start and end is recorded in history.h5 (-history_every 1000 steps), contact.h5");
