@@ -36,9 +36,11 @@ Schema friction_schema() {
       {"friction_slip_rate", Kind::real, "m/s", required, range::physical_positive,
        "slip rate over which the coefficient comes within 1/e of the kinetic one, of the exponential law"},
       {"friction_length", Kind::real, "m", required, range::physical_non_negative,
-       "slip distance over which the traction follows the pressure, L*; T = L*/|V|"},
+       "slip distance over which the traction follows the pressure, L*, of the regularised and the "
+       "exponential "
+       "law; T = L*/|V|"},
       {"friction_time", Kind::real, "s", absent, range::physical_non_negative,
-       "relaxation time T itself, in place of the length"},
+       "relaxation time T itself of these laws, in place of the length"},
       {"friction_<region>_coefficient", Kind::real, "1", absent,
        range::or_formula(range::physical_non_negative, "xt"),
        "the coefficient of the phase of that region, in place of friction_coefficient; a node between two "

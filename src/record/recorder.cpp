@@ -70,11 +70,11 @@ std::vector<double> transverse_of(const SlidingBody& body, const FieldQuantities
   return transverse_of_cells(body.model(), quantities.von_mises);
 }
 
-/// Steps between rows that nobody chose: about a thousand rows, and in a short run no more than one in twenty
+/// Steps between rows that nobody chose: about a thousand rows, and in a short run no more than one in 25
 /// steps, so that they cost little of it; or what the run before a restart made of that, whatever its end is
 /// now.
 long by_itself(double before_by_itself, double before, const TimeStep& time) {
-  constexpr long rows = 1000, least = 20;
+  constexpr long rows = 1000, least = 25;
   return before_by_itself != 0 ? static_cast<long>(before) : std::max(least, time.count / rows);
 }
 

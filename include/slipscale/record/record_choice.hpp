@@ -47,7 +47,7 @@ struct CheckpointChoice {
 struct RecordChoice {
   std::string folder;
   Cadence history, contact;   ///< when nothing is given, contact.h5 has about a thousand rows, in a short run
-                              ///< one in twenty steps
+                              ///< one in 25 steps
   bool contact_sums = false;  ///< whether it has sums over every step
   std::optional<InterfaceChoice> interfaces;
   Cadence interface_rows;       ///< about a thousand when nothing is given

@@ -1,6 +1,6 @@
 """The command line of a plan: its words, and options of the programs laid over scene and recipe."""
 
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.planning.case import SEPARATE
 from slipscale.planning.wishes import seconds_of
 from slipscale.running.sweep import check, owner, parameters_in, values_of
@@ -29,9 +29,9 @@ def parsed(words, manual):
     parser.add_argument("--want", help="results and how accurate they shall be, as friction:1%%,frequency:0.5%%")
     parser.add_argument("--budget", help="time of one core, as 90s, 10min or 2h: what accuracy does it buy?")
     parser.add_argument("--output", default="out/plan", help="folder (default: out/plan)")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="of averages, s; default: the second "
+    parser.add_argument("--window", action=Window, metavar=("FROM", "TO"), help="of averages, s; default: the second "
                         "half of the run")
-    parser.add_argument("--before", nargs=2, type=float, metavar=("FROM", "TO"), help="of trajectories, s")
+    parser.add_argument("--before", action=Window, metavar=("FROM", "TO"), help="of trajectories, s")
     parser.add_argument("--cells", default="grid,triangle", help="kinds that are tried, the first most (default: "
                         "grid,triangle)")
     parser.add_argument("--sizes", type=float, metavar="SIZE", help="of the coarsest pilot mesh, m (default: by its price)")

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from slipscale.measuring.window import backwards
 from slipscale.mistakes import Mistake
 from slipscale.planning.costs import damped
 from slipscale.reading import yaml_file
@@ -201,10 +202,11 @@ def case_of(scene, recipe, window=None, before=None, cells=None):
         raise Mistake("the scene has no time_end, from which the window of averages is taken")
     end = number(scene, "time_end")
     window = tuple(window or (0.5 * end, end))
-    if not 0 <= window[0] < window[1]:
-        raise Mistake(f"the window {window[0]:g} to {window[1]:g} s is none")
-    if before and not 0 <= before[0] < before[1]:
-        raise Mistake(f"--before {before[0]:g} {before[1]:g} is no window")
+    for name, asked in (("--window", window), ("--before", before)):
+        if asked and (wrong := backwards(asked)):
+            raise Mistake(f"{name} {wrong}")
+        if asked and asked[0] < 0:
+            raise Mistake(f"{name} begins at {asked[0]:g} s, before the run")
     if recipe.get("shape") == "image":
         cells = ["grid"]
     return Case(scene, recipe, window, tuple(before) if before else None, cells or ["grid", "triangle"], speeds(scene))
