@@ -34,9 +34,9 @@ class Costs(unittest.TestCase):
                                1e4 * 100 + 1e3 * 11 * 68 + 330e3 + 11 * 84e3)
 
     def test_rows_of_the_contact_by_themselves(self):
-        """A thousand, of a short run one in 20 steps."""
+        """A thousand, of a short run one in 25 steps."""
         self.assertEqual(contact_rows({}, 1e-4, 1e-9), 1000)
-        self.assertAlmostEqual(contact_rows({"contact_every": "auto"}, 1e-5, 1e-9), 500)
+        self.assertAlmostEqual(contact_rows({"contact_every": "auto"}, 1e-5, 1e-9), 400)
         self.assertAlmostEqual(contact_rows({"contact_interval": 1e-7}, 1e-5, 1e-9), 100)
 
 
