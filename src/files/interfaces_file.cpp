@@ -11,7 +11,8 @@
 namespace slipscale {
 namespace {
 
-constexpr double between_batches = 0.5;  // s
+constexpr double between_batches = 0.5;    // s
+constexpr std::size_t most_shown = 10000;  ///< rows in the .xdmf, of which each takes a kilobyte
 constexpr const char* names[] = {"normal", "shear", "index"};
 constexpr const char* units[] = {"Pa", "Pa", "1"};
 
@@ -254,7 +255,8 @@ std::string InterfacesFile::xdmf(const std::string& name) {
         "<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{}:{}</DataItem>",
         dimensions, name, path);
   };
-  for (std::size_t n = 0; n < times.size(); ++n) {
+  const std::size_t stride = 1 + times.size() / most_shown;
+  for (std::size_t n = 0; n < times.size(); n += stride) {
     text +=
         format("      <Grid Name=\"interfaces\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n",
                times[n]);

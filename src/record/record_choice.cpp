@@ -38,8 +38,8 @@ Schema thousand_rows(const std::string& what, const std::string& file) {
   return cadence_schema(what,
                         {"", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
                          "steps between the rows of " + file +
-                             "; auto makes about a thousand rows, and a restart with a later end keeps their "
-                             "distance"});
+                             "; auto makes about a thousand rows, in a short run one in 25 steps, and a "
+                             "restart with a later end keeps their distance"});
 }
 
 /// -<what>_every, which may have a default, or -<what>_interval.
@@ -175,7 +175,7 @@ Schema record_schema() {
        "facts that run.yaml carries; ignored when it is read again"},
   };
   return interface_schema() + thousand_rows("interfaces", "interfaces.h5") +
-         cadence_schema("history", {"", Kind::integer, "1", "10", range::at_least_one,
+         cadence_schema("history", {"", Kind::integer, "1", "25", range::at_least_one,
                                     "steps between the rows of history.h5"}) +
          thousand_rows("contact", "contact.h5") +
          cadence_schema("fields", {"", Kind::integer, "1", absent, range::at_least_one,

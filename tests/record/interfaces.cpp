@@ -246,3 +246,28 @@ TEST(InterfaceChoice, DoubtsAMatrix) {
                 .find("-interfaces_region matrix: 1 of the 1 inclusions that it makes lies around"),
             std::string::npos);
 }
+
+/// One node, rows without end: a peak where it is, and no more in the .xdmf than a reader can hold.
+TEST(InterfacesFile, OfOneNodeAndManyRows) {
+  const std::string folder = scratch("interfaces");
+  if (!is_root(PETSC_COMM_WORLD)) return;
+  Inclusions one;
+  one.centre = {{0, 0}};
+  one.area = {1};
+  one.outer = {0};
+  InterfaceNode node{0, 7, {1, 0}, {1, 0}, 2, 0, false};
+  one.interface = {node};
+  constexpr int rows = 10001;
+  InterfacesFile file(folder + ".h5", one, {"fibre", {}}, {""}, rows);
+  for (int n = 0; n < rows; ++n) file.write(n, {{{n == 5000 ? 6.0 : 2.0, -4}}});
+  EXPECT_EQ(file.headline().find(
+                "inclusion 0 is pulled hardest: 3 Pa at x = 1 m, y = 0 m (0.0 degrees), t = 5000 s"),
+            0u)
+      << file.headline();
+  EXPECT_EQ(file.peaks()[0][0].shear.value, 2);
+  const std::string shown = file.xdmf("interfaces.h5");
+  int times = 0;
+  for (auto at = shown.find("<Time"); at != std::string::npos; at = shown.find("<Time", at + 1)) ++times;
+  EXPECT_EQ(times, 5001);
+  file.series().close();
+}

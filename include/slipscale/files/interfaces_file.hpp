@@ -54,8 +54,8 @@ class InterfacesFile {
   /// One line on what debonds first, or comes nearest to it, or is pulled hardest; of the first recovery.
   /// Ends with the number of rows where they are few, for what happens between rows is not seen.
   std::string headline() const;
-  /// The text of interfaces.xdmf: the nodes as points, with the tractions at every row. `name`: of the HDF5
-  /// file.
+  /// The text of interfaces.xdmf: the nodes as points, with the tractions at every row, of more than ten
+  /// thousand at every second, third … `name`: of the HDF5 file.
   std::string xdmf(const std::string& name);
 
  private:
