@@ -33,6 +33,9 @@ CASES = (
     ("C11, C22, C12 = 8, 3, 1.5 C66, turned by 0.5, K 0.2", Slab(turned(orthotropic(8, 3, 1.5), 0.5)), 0.07 + 2.05j),
 )
 
+# Growth, the small part of p, is off by more than .1 % of itself on 128 elements.
+SLOWER = ("kH 2, mu 0.5, nu 0.3, K 0 (Coulomb)", "kH 2, mu 0.5, nu 0.3, K 0.1", "laminate 30/80 GPa along y, K 0.2")
+
 
 class SlabCase(ModesCase):
     def mesh(self, elements):
@@ -58,29 +61,37 @@ class SlabCase(ModesCase):
 
 class Determinant(SlabCase):
     def test_growth_and_frequency(self):
-        """At 128 elements a wave length within .3 % and .1 %, as runs of slide are on such a mesh; of order two in h, and
-        what that leaves, from 64 and 128 elements, within .1 % of both."""
+        """At 128 elements a wave length p is within .1 % of |p|, the frequency within .1 %, and so is growth, except in the
+        cases of SLOWER, whose growth is on 192 elements. Order two in h, and what 64 and 128 elements leave for h = 0 is
+        within .02 % of both."""
         for text, slab, near in CASES:
             with self.subTest(text):
                 expected = slab.mode(near)
-                found = []
-                for elements in (64, 128):
-                    mode = self.modes(self.scene(slab, elements), modes_to=1.1 * abs(expected.imag) / LENGTH, modes_count=12,
-                                      modes_tolerance=1e-8, modes_shapes=0).nearest(
-                                          complex(expected.real, abs(expected.imag)))
-                    found.append(complex(mode.real, np.copysign(mode.imag, expected.imag)))
-                coarse, fine = found
+                coarse, fine = (self.mode(slab, expected, elements) for elements in (64, 128))
                 limit = (4 * fine - coarse) / 3
-                for mode, growth, frequency in ((fine, 3e-3, 1e-3), (limit, 1e-3, 1e-3)):
+                self.assert_close(fine, expected, 1e-3, text)
+                for mode, growth, frequency in ((fine, 2e-3 if text in SLOWER else 1e-3, 1e-3), (limit, 2e-4, 2e-4)):
                     self.assertAlmostEqual(mode.real / expected.real, 1, delta=growth, msg=text)
                     self.assertAlmostEqual(mode.imag / expected.imag, 1, delta=frequency, msg=text)
                 order = np.log2(abs(coarse - expected) / abs(fine - expected))
-                self.assertAlmostEqual(order, 2, delta=0.15, msg=f"{text} {found}")
-                sliding_scenes.row(
-                    TOPIC, f"{text}, 128 elements; with 64 to h = 0",
-                    f"{expected.real:.6f}, {expected.imag:.6f} within 0.3 %, 0.1 %; 0.1 %, 0.1 %",
-                    f"{fine.real:.6f}, {fine.imag:.6f}; {limit.real:.6f}, {limit.imag:.6f}", "determinant, in the test",
-                    f"{order:.1f}")
+                self.assertAlmostEqual(order, 2, delta=0.15, msg=f"{text} {coarse} {fine}")
+                self.row(f"{text}, 128 elements; with 64 to h = 0", expected,
+                         f"{'0.2' if text in SLOWER else '0.1'} %, 0.1 %; 0.02 %, 0.02 %",
+                         f"{fine.real:.6f}, {fine.imag:.6f}; {limit.real:.6f}, {limit.imag:.6f}", f"{order:.1f}")
+                if text in SLOWER:
+                    finer = self.mode(slab, expected, 192)
+                    self.assertAlmostEqual(finer.real / expected.real, 1, delta=1e-3, msg=text)
+                    self.row(f"{text}, 192 elements", expected, "0.1 %, 0.1 %", f"{finer.real:.6f}, {finer.imag:.6f}")
+
+    def mode(self, slab, expected, elements):
+        """That of a mesh which is nearest to `expected`, with its sign of the frequency."""
+        found = self.modes(self.scene(slab, elements), modes_to=1.1 * abs(expected.imag) / LENGTH, modes_count=12,
+                           modes_tolerance=1e-8, modes_shapes=0).nearest(complex(expected.real, abs(expected.imag)))
+        return complex(found.real, np.copysign(found.imag, expected.imag))
+
+    def row(self, text, expected, within, found, order="-"):
+        sliding_scenes.row(TOPIC, text, f"{expected.real:.6f}, {expected.imag:.6f} within {within}", found,
+                           "determinant, in the test", order)
 
 
 class GridScale(SlabCase):
