@@ -7,10 +7,14 @@
 #include <numeric>
 #include <tuple>
 
+#include "side_by_side.hpp"
+
 namespace slipscale {
 namespace {
 
 using Ends = std::array<int, 2>;
+
+constexpr double rounding = 1e-9;  ///< of the edges that meet in a node
 
 struct CellEdge {
   Ends ends;  ///< low, high
@@ -71,16 +75,6 @@ std::array<double, 3> moments(const RegionCells& cells, int cell) {
   return sum;
 }
 
-/// How far a cell is moved, by whole periods, to lie beside another of its inclusion.
-Vector2 moved_to(const RegionCells& cells, int cell, const Vector2& beside) {
-  const Vector2& place = cells.corner[cells.first[cell]];
-  Vector2 shift{};
-  for (int axis = 0; axis < 2; ++axis)
-    if (const double period = cells.period[axis]; period > 0)
-      shift[axis] = std::round((beside[axis] - place[axis]) / period) * period;
-  return shift;
-}
-
 /// Into the block.
 Vector2 inside(const RegionCells& cells, Vector2 place) {
   for (int axis = 0; axis < 2; ++axis)
@@ -111,13 +105,12 @@ void number_by_centre(Inclusions& found, std::vector<int>& part, double extent) 
 void measure(const RegionCells& cells, Inclusions& found, std::vector<Vector2>& shift) {
   std::map<int, int> index;  // of the lowest cell
   std::vector<std::array<double, 2>> first_moments;
-  shift.resize(static_cast<std::size_t>(cells.size()));
+  shift = side_by_side(cells, found.of_cell);
   Box box{{1e300, 1e300}, {-1e300, -1e300}};
   for (int cell = 0; cell < cells.size(); ++cell) {
     const int lowest = found.of_cell[cell];
     const auto [known, is_new] = index.try_emplace(lowest, static_cast<int>(found.area.size()));
     if (is_new) found.area.push_back(0), first_moments.push_back({0, 0});
-    shift[cell] = moved_to(cells, cell, cells.corner[cells.first[lowest]]);
     const auto own = moments(cells, cell);
     found.area[known->second] += own[0];
     for (int axis = 0; axis < 2; ++axis) {
@@ -165,6 +158,7 @@ Inclusions find_inclusions(const RegionCells& cells, const std::vector<char>& ot
   found.outer.assign(found.area.size(), 0);
 
   std::map<std::pair<int, int>, InterfaceNode> nodes;  // by inclusion and node
+  std::map<std::pair<int, int>, double> edges_at;      // halves of the edges that meet there, m
   std::vector<std::pair<int, int>> outer;
   std::size_t outline = 0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -180,6 +174,7 @@ Inclusions find_inclusions(const RegionCells& cells, const std::vector<char>& ot
     const Vector2 &a = cells.corner[ends[0]], &b = cells.corner[ends[1]];
     for (const int end : ends) {
       InterfaceNode& node = nodes.try_emplace({k, cells.node[end]}, k, cells.node[end]).first->second;
+      edges_at[{k, cells.node[end]}] += 0.5 * std::hypot(b[0] - a[0], b[1] - a[1]);
       node.normal = {node.normal[0] + 0.5 * (b[1] - a[1]), node.normal[1] - 0.5 * (b[0] - a[0])};
       node.position = {cells.corner[end][0] + shift[edge.cell][0],
                        cells.corner[end][1] + shift[edge.cell][1]};
@@ -189,6 +184,8 @@ Inclusions find_inclusions(const RegionCells& cells, const std::vector<char>& ot
     if (const auto node = nodes.find(where); node != nodes.end()) node->second.outer = true;
   for (auto& [where, node] : nodes) {
     node.length = std::hypot(node.normal[0], node.normal[1]);
+    // Where the inclusion touches itself in a node, its edges may cancel there; rounding is no length.
+    if (!(node.length > rounding * edges_at[where])) node.length = 0, node.normal = {0, 0};
     if (node.length > 0) node.normal = {node.normal[0] / node.length, node.normal[1] / node.length};
     const Vector2& centre = found.centre[node.inclusion];
     node.angle = std::atan2(node.position[1] - centre[1], node.position[0] - centre[0]);

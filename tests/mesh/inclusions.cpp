@@ -133,3 +133,52 @@ TEST(Inclusions, OfAPlainGridJoinPointsOfEqualNumber) {
   expect_near(found.centre[1], {0.25, 0.75});
   EXPECT_EQ(found.interface.size(), 24u + 8u);
 }
+
+/// A disc whose diameter is .8 of the period along both axes, wherever the seams cut it: its lowest cell may
+/// be further than half a period from others.
+TEST(Inclusions, WiderThanHalfAPeriodAreNotTorn) {
+  for (const Vector2& middle : {Vector2{0.5, 0.5}, {0.1, 0.5}, {0.9, 0.9}, {0, 0.3}}) {
+    Block b;
+    b.nx = b.ny = 24;
+    b.periodic_x = b.periodic_y = true;
+    b.region = [&](double x, double y) {
+      return std::hypot(std::remainder(x - middle[0], 1.0), std::remainder(y - middle[1], 1.0)) < 0.4 ? 2 : 1;
+    };
+    const Mesh mesh = block_mesh(b);
+    const Inclusions found = find_inclusions(mesh, region_of(mesh, "inclusion")).inclusions;
+    ASSERT_EQ(found.size(), 1);
+    for (int axis = 0; axis < 2; ++axis)
+      EXPECT_NEAR(std::remainder(found.centre[0][axis] - middle[axis], 1.0), 0, 1.0 / 24);
+    for (const InterfaceNode& node : found.interface)
+      EXPECT_NEAR(std::hypot(node.position[0] - found.centre[0][0], node.position[1] - found.centre[0][1]),
+                  0.4, 1.5 / 24)
+          << "torn at " << middle[0] << ", " << middle[1];
+  }
+}
+
+/// A bracket whose two ends meet in one node alone: its edges cancel there, and so does its length.
+TEST(Inclusions, ThatTouchThemselvesInANodeHaveNoLengthThere) {
+  Block b;
+  b.nx = b.ny = 12;
+  b.shape = Shape::quadrilaterals;
+  b.width = b.height = 0.7;
+  b.region = [](double x, double y) {
+    const int i = static_cast<int>(x / 0.7 * 12), j = static_cast<int>(y / 0.7 * 12);
+    const bool ends = (i == 5 && j == 5) || (i == 6 && j == 6);
+    const bool round = (i == 5 && j == 4) || (j == 4 && i >= 5 && i <= 8) || (i == 8 && j >= 4 && j <= 6) ||
+                       (j == 6 && i >= 6 && i <= 8);
+    return ends || round ? 2 : 1;
+  };
+  const Mesh mesh = block_mesh(b);
+  const Inclusions found = find_inclusions(mesh, region_of(mesh, "inclusion")).inclusions;
+  ASSERT_EQ(found.size(), 1);
+  int pinched = 0;
+  for (const InterfaceNode& node : found.interface) {
+    if (node.length > 0.01) continue;
+    ++pinched;
+    EXPECT_EQ(node.length, 0);
+    EXPECT_EQ(tractions(node, {1, 2}), (std::array<double, 2>{0, 0}));
+    EXPECT_NEAR(node.position[0], 0.35, 1e-12);
+  }
+  EXPECT_EQ(pinched, 1);
+}
