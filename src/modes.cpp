@@ -8,6 +8,7 @@
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
 #include "slipscale/dynamics/formulas.hpp"
+#include "slipscale/dynamics/friction_notes.hpp"
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/mesh/read.hpp"
 #include "slipscale/modes/modes_choice.hpp"
@@ -90,6 +91,7 @@ void modes(Options& options) {
   const Model model(mesh, materials, storage, kernel);
   print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
+  print_notes(notes_on_friction(options, mesh, scene));
   const auto step = scheme_step(comm, model, scene, time);
 
   const SteadySliding state = steady_sliding(comm, model, scene);

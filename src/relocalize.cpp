@@ -13,11 +13,23 @@
 #include "slipscale/relocalize/relocalisation_report.hpp"
 #include "slipscale/relocalize/relocalisation_sources.hpp"
 #include "slipscale/relocalize/relocalised_file.hpp"
+#include "slipscale/relocalize/run_record.hpp"
 #include "slipscale/relocalize/stress_comparison.hpp"
 
 using namespace slipscale;
 
 namespace {
+
+/// As run.yaml tells it, without which nothing is periodic.
+Seam seam_of(MPI_Comm comm, const FieldsReader& run) {
+  const RunRecord record = read_run_record(comm, run.folder());
+  const auto along = record.find("run_periodic");
+  Seam seam{{}, run.block().lower};
+  if (along == record.end()) return seam;
+  for (int axis = 0; axis < 2; ++axis)
+    if (along->second.find("xy"[axis]) != std::string::npos) seam.period[axis] = run.block().extent(axis);
+  return seam;
+}
 
 void relocalize(Options& options) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
@@ -34,7 +46,7 @@ void relocalize(Options& options) {
   LocalStress local(comm, sources.tensors, run.grid(), choice.recovery, targets, mine, choice.strip);
   LocalHistories histories(comm, targets, mine, choice.points);
   std::optional<LocalInterfaces> interfaces;
-  if (choice.interfaces) interfaces.emplace(comm, targets, mine, *choice.interfaces);
+  if (choice.interfaces) interfaces.emplace(comm, targets, mine, *choice.interfaces, seam_of(comm, run));
   std::optional<StressComparison> comparison;
   if (sources.reference)
     comparison.emplace(comm, *sources.reference, targets, mine, run.times(), *choice.reference);
@@ -42,6 +54,7 @@ void relocalize(Options& options) {
   print(describe(run, sources.tensors, targets, local) + (interfaces ? interfaces->describe() : ""));
   const std::vector<std::string> notes = misfits(comm, sources);
   print_notes(notes);
+  if (interfaces) print_notes(interfaces->notes());
 
   const OutputFolder folder(
       comm, choice.folder,

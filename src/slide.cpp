@@ -5,6 +5,7 @@
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/program.hpp"
+#include "slipscale/dynamics/friction_notes.hpp"
 #include "slipscale/dynamics/remarks.hpp"
 #include "slipscale/dynamics/scene.hpp"
 #include "slipscale/dynamics/sliding_body.hpp"
@@ -97,6 +98,7 @@ void slide(Options& options) {
   print_notes(mesh.notes);
   print(describe(mesh, descriptions(materials)));
   print_scene(scene, initial);
+  print_notes(notes_on_friction(options, mesh, scene));
 
   const TimeStep step = restart ? restart->time_step(time.end) : choose_step(comm, model, scene, time);
   print(describe(step, model) + describe_kernel(comm, model));

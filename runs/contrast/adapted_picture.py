@@ -15,7 +15,7 @@ import numpy as np
 from contrast.adapted import before_of, best_level, cases_of, left_by
 from contrast.morphologies import COMPOSITE
 from slipscale.measuring.regime import friction_spectrum
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import write_picture
 from slipscale.reading import UnreadableRun
@@ -112,7 +112,7 @@ def draw(options):
 def main(arguments=None):
     parser = Parser("contrast.adapted_picture", __doc__, "python3 -m")
     parser.add_argument("out", help="output folder of the study")
-    parser.add_argument("--window", nargs=2, type=float, required=True, metavar=("FROM", "TO"), help="s")
+    parser.add_argument("--window", action=Window, required=True, metavar=("FROM", "TO"), help="s")
     return write_picture(parser, draw, arguments)
 
 

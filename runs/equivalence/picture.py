@@ -15,7 +15,7 @@ import numpy as np
 from equivalence.verdict import SCALARS, judge, read_run, verdict
 from slipscale.measuring.regime import HIGHEST
 from slipscale.measuring.window import MICRO, in_words
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.pictures.colours import BLACK
 from slipscale.pictures.drawing import plt, write_picture
 from slipscale.pictures.overlay import COLOURS
@@ -110,7 +110,7 @@ def main(arguments=None):
     parser = Parser("equivalence.picture", __doc__, "python3 -m")
     parser.add_argument("--composites", nargs="+", required=True, help="output folders of `slide`, two at least")
     parser.add_argument("--homogenised", nargs="+", required=True, help="output folders of `slide`")
-    parser.add_argument("--window", nargs=2, type=float, required=True, metavar=("FROM", "TO"), help="s")
+    parser.add_argument("--window", action=Window, required=True, metavar=("FROM", "TO"), help="s")
     parser.add_argument("--point", type=int, default=0, help="probe point (default: 0)")
 
     def figure(options):

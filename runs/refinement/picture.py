@@ -16,7 +16,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from refinement.orders import CONVERGES, found_in
 from refinement.sequences import SAME
 from slipscale.measuring.window import in_words
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.pictures import overlay
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import PREFIXES, few_ticks, plt, write_picture
@@ -229,7 +229,7 @@ def main(arguments=None):
     parser.add_argument("--variants", nargs="*", default=[], help="whose portraits are drawn")
     parser.add_argument("--size", nargs="*", type=float, help="element sizes of the runs, m")
     parser.add_argument("--step", nargs="*", type=float, help="or their time steps, s")
-    parser.add_argument("--window", nargs=2, type=float, default=(0, 1e9), help="times in s")
+    parser.add_argument("--window", action=Window, default=(0, 1e9), help="times in s")
     return write_picture(parser, draw, arguments)
 
 

@@ -6,6 +6,20 @@ import re
 import sys
 
 
+class Window(argparse.Action):
+    """Two times in s, the earlier first."""
+
+    def __init__(self, option_strings, dest, **how):
+        super().__init__(option_strings, dest, nargs=2, type=float, **how)
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        from slipscale.measuring.window import backwards
+
+        if wrong := backwards(values):
+            raise argparse.ArgumentError(self, wrong)
+        setattr(namespace, self.dest, tuple(values))
+
+
 class Parser(argparse.ArgumentParser):
     """Of the subcommand `name`; `text` is its manual, as a rule the docstring of its module. What a study alone uses is
     started as `python3 -m name`."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from slipscale.measuring import spectrum as welch
 from slipscale.measuring.averages import settling
-from slipscale.measuring.regime import friction_signal, measures
+from slipscale.measuring.regime import STILL, friction_signal, measures
 from slipscale.measuring.window import choose_window, default_window, rows_in
 from slipscale.mistakes import Mistake
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
@@ -20,7 +20,7 @@ class Spectrum:
     """One-sided power spectral density of the tangential over the mean normal force, by Welch's method.
 
     frequency [n] Hz; density [n] 1/Hz, whose sum times the frequency step is the variance; dominant Hz, the
-    strongest line, interpolated between bins.
+    strongest line, interpolated between bins; 0 where friction is constant to rounding.
     """
 
     frequency: np.ndarray
@@ -197,7 +197,8 @@ class Run:
         signal = friction_signal(self._history, self._summary.measured_boundary(self._history), rows)
         values, rate = welch.evenly_spaced(self.time[rows], signal)
         frequency, density = welch.welch(values, rate)
-        return Spectrum(frequency, density, float(welch.dominant_frequency(frequency, density)))
+        dominant = float(welch.dominant_frequency(frequency, density)) if np.ptp(signal) > STILL else 0.0
+        return Spectrum(frequency, density, dominant)
 
     def settling(self, from_=None, to=None):
         """Whether friction goes on in the second half of the window (s) as in the first: an averages.Settling."""

@@ -4,6 +4,7 @@ Snakefile."""
 from pathlib import Path
 
 from slipscale.measuring.regime import costs, measures
+from slipscale.reading.yaml_file import load
 from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
 from strip.missed import distances
@@ -18,7 +19,7 @@ def result(folder):
     missed = distances(folder, whole, window, float(job.params.layer)) if (whole / "summary.yaml").is_file() else {}
     found = measures(folder, window)
     found["regime_seen"] = found.pop("regime")
-    return {**found, **costs(folder), **missed}
+    return {**found, **costs(folder), "seconds": load(folder / "outcome.yaml", written=True)["cpu_seconds"], **missed}
 
 
 write_csv(job.output[0], collect(job.input.runs, result))

@@ -2,10 +2,12 @@
 
     python3 -m strip.picture TABLE.csv PICTURE.png
 
-A line for each regime joins the medians over morphologies; dots are the morphologies.
+A line for each regime joins the medians over morphologies, broken and hollow on graded meshes; dots are the
+morphologies of the grids. Dotted: what whole composites of other seeds differ by, the median of all pairs.
 """
 
 import sys
+from itertools import combinations
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,12 +18,15 @@ from slipscale.pictures.colours import BLUE, GREEN, ORANGE
 from slipscale.pictures.drawing import write_picture
 from slipscale.running.table import read_csv
 
-PANELS = {"friction_off": "friction T / N, difference [1]", "frequency_off": "dominant frequency, difference [%]",
-          "spectrum_distance": "spectrum of friction, distance [1]",
-          "mean_stress_distance": "σ_yy near the contact, time mean, distance [1]",
-          "deviation_distance": "its deviation over time, distance [1]", "amplitude_off": "amplitude of friction, difference [%]"}
+PANELS = {"friction_off": "friction T / N, difference", "frequency_off": "dominant frequency, difference [%]",
+          "spectrum_distance": "spectrum of friction, distance",
+          "mean_stress_distance": "σ_yy near the contact, mean: distance",
+          "deviation_distance": "its deviation over time: distance",
+          "amplitude_off": "amplitude of friction, difference [%]"}
 PERCENT = {"frequency_off": 100, "amplitude_off": 100}
 SERIES = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"))
+SEEDS = {"friction_off": ("friction", False), "frequency_off": ("frequency", True), "amplitude_off": ("amplitude", True)}
+MAIN = "grid"  # the mesh whose morphologies are drawn one by one
 SMALLEST = 1e-4
 
 
@@ -34,30 +39,45 @@ def values(rows, height, name):
             if row["height"] == height and row[name] is not None]
 
 
+def seeds_apart(whole, name):
+    """The median of what two whole composites differ by, in the unit of a panel; None where it has no such value."""
+    if name not in SEEDS or len(whole) < 2:
+        return None
+    column, relative = SEEDS[name]
+    pairs = combinations([row[column] for row in whole], 2)
+    return PERCENT.get(name, 1) * float(np.median([abs(one - other) / (other if relative else 1) for one, other in pairs]))
+
+
 def draw(rows):
-    rows = [row for row in rows if row["status"] == "ok" and row["mesh"] == "grid"]
-    whole = max(heights_of(rows))
-    rows = [row for row in rows if row["height"] < whole]
+    rows = [row for row in rows if row["status"] == "ok"]
+    heights = heights_of(rows)
     figure, panels = plt.subplots(2, 3, figsize=(13, 7.5), layout="constrained", sharex=True)
     for axes, (name, label) in zip(panels.flat, PANELS.items()):
         for shift, (colour, marker), regime in zip((-0.07, 0, 0.07), SERIES, dict.fromkeys(row["regime"] for row in rows)):
-            own = [row for row in rows if row["regime"] == regime]
-            heights = [height for height in heights_of(own) if values(own, height, name)]
-            for height in heights:
-                found = values(own, height, name)
-                axes.plot([height + shift] * len(found), found, marker, color=colour, alpha=0.35, markersize=4,
-                          markeredgewidth=0)
-            axes.plot([height + shift for height in heights], [np.median(values(own, height, name)) for height in heights],
-                      f"{marker}-", color=colour, label=regime)
-        axes.set(ylabel=label, yscale="log")
+            for mesh in dict.fromkeys(row["mesh"] for row in rows if row["regime"] == regime):
+                own = [row for row in rows if (row["regime"], row["mesh"]) == (regime, mesh)]
+                at = [height for height in heights[:-1] if values(own, height, name)]
+                found = [values(own, height, name) for height in at]
+                for height, of in zip(at, found) if mesh == MAIN else ():
+                    axes.plot([height + shift] * len(of), of, marker, color=colour, alpha=0.35, markersize=4,
+                              markeredgewidth=0)
+                if at:
+                    axes.plot([height + shift for height in at], [np.median(of) for of in found], marker, color=colour,
+                              linestyle="-" if mesh == MAIN else "--", markerfacecolor=colour if mesh == MAIN else "white",
+                              label=f"{regime}, {mesh}")
+                apart = seeds_apart([row for row in own if row["height"] == heights[-1]], name) if mesh == MAIN else None
+                if apart:
+                    axes.axhline(apart, color=colour, linestyle=":", linewidth=1, label=f"{regime}: other seeds")
+        axes.set(ylabel=label, yscale="log", xticks=heights[:-1])
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.grid(alpha=0.25)
     for axes in panels[-1]:
-        axes.set_xlabel(f"height of the microstructure [mm], of {whole:g}")
-    figure.get_layout_engine().set(rect=(0, 0, 1, 0.95))
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="upper center", ncols=len(SERIES), frameon=False)
+        axes.set_xlabel(f"height of the microstructure [mm], of {heights[-1]:g}")
+    figure.get_layout_engine().set(rect=(0, 0, 1, 0.92))
+    named = {label: handle for axes in panels.flat for handle, label in zip(*axes.get_legend_handles_labels())}
+    figure.legend(named.values(), named.keys(), loc="upper center", ncols=4, frameon=False)
     return figure
 
 

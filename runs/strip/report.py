@@ -11,6 +11,8 @@ ERRORS = {"friction_off": ("friction off", ".4f", 1), "frequency_off": ("frequen
           "amplitude_off": ("amplitude off [%]", ".0f", 100), "spectrum_distance": ("distance of spectrum", ".2f", 1),
           "mean_stress_distance": ("of σ_yy, mean", ".4f", 1), "deviation_distance": ("deviation", ".3f", 1)}
 
+COSTS = {"nodes": "nodes", "steps": "steps", "node_steps": "node-steps", "seconds": "seconds"}
+
 
 def groups_of(rows):
     """Rows by regime, mesh and height, in that order."""
@@ -35,13 +37,13 @@ def missed_table(groups):
     lines = []
     for (regime, mesh, height), rows in groups.items():
         whole = max(of for r, m, of in groups if (r, m) == (regime, mesh))
-        cost = np.median([row["node_steps"] for row in rows]) / np.median(
-            [row["node_steps"] for row in groups[regime, mesh, whole]])
+        costs = [np.median([row[name] for row in rows]) / np.median([row[name] for row in groups[regime, mesh, whole]])
+                 for name in COSTS]
         shown = ["-"] * len(ERRORS) if height == whole else [median_and_most(rows, name, form, factor)
                                                             for name, (_, form, factor) in ERRORS.items()]
-        lines.append([regime, mesh, f"{height:g}", len(rows), *shown, f"{cost:.2f}"])
+        lines.append([regime, mesh, f"{height:g}", len(rows), *shown, *(f"{cost:.2f}" for cost in costs)])
     return markdown(["regime", "mesh", "height [mm]", "morphologies", *(words for words, *_ in ERRORS.values()),
-                     "node-steps"], lines)
+                     *COSTS.values()], lines)
 
 
 def scatter_lines(groups):
@@ -53,10 +55,11 @@ def scatter_lines(groups):
 
 def run_table(rows):
     return markdown([*RUN, "T / N", "± of the window", "frequency [kHz]", "amplitude", "regime", "settled", "nodes",
-                     "step [ns]"],
+                     "step [ns]", "seconds"],
                     [[*(row[name] for name in RUN), f"{row['friction']:.4f}", f"{row['friction_error']:.4f}",
                       f"{1e-3 * row['frequency']:.1f}", f"{row['amplitude']:.3f}", row["regime_seen"],
-                      "yes" if is_true(row["settled"]) else "no", row["nodes"], f"{1e9 * row['step']:.2f}"]
+                      "yes" if is_true(row["settled"]) else "no", row["nodes"], f"{1e9 * row['step']:.2f}",
+                      f"{row['seconds']:.2f}"]
                      for row in rows])
 
 
@@ -64,7 +67,8 @@ def report(rows):
     good = [row for row in rows if row["status"] == "ok"]
     groups = groups_of(good)
     return f"""What a run misses of that of the whole composite with the same seed, in absolute value: median over
-morphologies (the most). Height 0 is the homogenised block, the largest the whole composite; cost in node-steps.
+morphologies (the most). Height 0 is the homogenised block, the largest the whole composite. Nodes, steps, node-steps and seconds of
+one core (start and statistics included) are over those of the whole, medians of both.
 
 {missed_table(groups)}
 {bullets([*scatter_lines(groups), *failures(rows, RUN)])}

@@ -1,7 +1,7 @@
 """Collects the runs of the sweep in one table; run by the Snakefile."""
 
 from slipscale.measuring.regime import costs, measures
-from slipscale.measuring.window import FEWEST_FOR_MEANS, FEWEST_ROWS, choose_window, rows_in, too_few
+from slipscale.measuring.window import FEWEST_FOR_MEANS, FEWEST_ROWS, choose_window, cut_away, rows_in, too_few
 from slipscale.reading import History, UnreadableRun
 from slipscale.running.studies import started_by_snakemake
 from slipscale.running.table import collect, write_csv
@@ -14,8 +14,10 @@ def result(folder, window):
         time = History(folder).time
         begin, end = choose_window(time, window, FEWEST_FOR_MEANS)
         rows = rows_in(time, (begin, end))
-        lacks = {"reason": too_few(time, (begin, end))} if rows.stop - rows.start < FEWEST_ROWS else {}
-        return {**lacks, "window_begin": float(begin), "window_end": float(end),
+        lacks = (too_few(time, (begin, end)) if rows.stop - rows.start < FEWEST_ROWS else "",
+                 cut_away(time, window) if window else "")
+        reason = "; ".join(filter(None, lacks))
+        return {**({"reason": reason} if reason else {}), "window_begin": float(begin), "window_end": float(end),
                 **measures(folder, (begin, end), fewest=FEWEST_FOR_MEANS), **costs(folder)}
     except UnreadableRun as error:
         return {"status": "failed", "reason": str(error)}

@@ -6,10 +6,12 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import h5py
 import numpy as np
 
 import slipscale
 from slipscale.mistakes import Mistake
+from slipscale.pictures import picture
 from tests import fake_run
 
 
@@ -64,6 +66,22 @@ class OfARun(unittest.TestCase):
     def test_a_window_that_is_too_short(self):
         with self.assertRaisesRegex(slipscale.UnreadableRun, "a spectrum needs 32"):
             self.run_.spectrum(from_=3.9995e-4)
+
+    def test_rounding_has_no_frequency(self):
+        with tempfile.TemporaryDirectory() as folder:
+            fake_run.write_run(folder)
+            for size, frequency in ((1e-6, 1e5), (1e-10, 0)):
+                with h5py.File(Path(folder) / "history.h5", "r+") as file:
+                    wave = np.cos(2 * np.pi * 1e5 * file["time"][:])
+                    file["boundary/top/normal_force"][:] = 7.5e4
+                    file["boundary/top/tangential_force"][:] = 3e4 * (1 + size * wave)
+                run = slipscale.Run(folder)
+                self.assertAlmostEqual(run.spectrum().dominant, frequency, delta=100)
+                self.assertAlmostEqual(run.measures()["frequency"], frequency, delta=100)
+                figure = picture.draw(folder)
+                said = " ".join(" ".join(text.get_text() for text in figure.axes[2].texts).split())
+                self.assertEqual("does not vary in the window" in said, not frequency)
+                picture.plt.close(figure)
 
     def test_no_folder(self):
         with self.assertRaisesRegex(slipscale.UnreadableRun, "no folder nowhere"):

@@ -1,5 +1,6 @@
 """Work-precision diagrams of a table of the study: error over cost, a panel for each case and error, the Pareto front drawn
-through the runs that none beats.
+through the runs that none beats. Errors below their own scatter over time count as that there; dissipation and height
+of the block make another scene and are no part of it.
 
     python3 -m tradeoff.picture out/tradeoff/table.csv front.png [--x seconds] [--y friction_off,frequency_off,spectrum_off]
 
@@ -16,15 +17,16 @@ from slipscale.parser import Parser
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import few_ticks, plt, write_picture
 from slipscale.running.table import read_csv
-from tradeoff.front import front
+from tradeoff.front import front, size_of
 
 # Told apart by form as well as by colour; no two have both in common.
 KNOBS = {"cells": ("kind of cells", BLUE, "o"), "sizes": ("size of cells", ORANGE, "s"),
-         "steps": ("part of the stable step", GREEN, "^"), "together": ("cells, size and step together", SKY, "."),
+         "steps": ("part of the stable step", GREEN, "^"), "together": ("cells, size and step together", SKY, "d"),
          "beta2": ("beta2 of the scheme", VERMILION, "v"), "damping": ("damping", PURPLE, "D"),
          "storage": ("single or double storage", SKY, "P"), "cadence": ("rows of the history", BLACK, "x"),
          "homogeneous": ("homogenised block", VERMILION, "*"), "relocalised": ("… and relocalised", VERMILION, "X"),
          "strip": ("strip of microstructure", GREEN, "h"), "heights": ("height of the block", PURPLE, "<")}
+OTHER_SCENES = ("beta2", "damping", "heights")  # they change what is simulated, not how well
 COSTS = {"seconds": "seconds of one core", "node_steps": "node-steps", "memory": "peak memory [MB]", "disk": "disk [MB]"}
 FACTORS = {"memory": 1e-6, "disk": 1e-6}
 ERRORS = {"friction": "friction T / N", "frequency": "dominant frequency", "amplitude": "amplitude of friction",
@@ -59,14 +61,16 @@ def panel(axes, rows, cost, error):
         if of := [row for row in rows if kind_of(row) == kind]:
             axes.plot([row[cost] for row in of], sizes(of, error), marker, color=colour, markersize=6, label=label,
                       markeredgecolor="white" if marker not in "x" else colour, markeredgewidth=0.4)
-    best = front(rows, cost, error)
-    axes.plot([row[cost] for row in best], sizes(best, error), "-", color=BLACK, linewidth=1, zorder=1,
-              label="none is better and cheaper")
-    bars = sorted(row[error.replace("_off", "_bar")] for row in rows)
-    if bars:
-        axes.axhline(max(SMALLEST, PERCENT * bars[len(bars) // 2]), color=BLACK, linestyle=":", linewidth=1,
-                     label="scatter over time (median)")
+    bar = error.replace("_off", "_bar")
+    best = front([row for row in rows if row["knob"] not in OTHER_SCENES], cost, error, bar)
+    axes.step([row[cost] for row in best], [max(SMALLEST, PERCENT * size_of(row, error, bar)) for row in best], "-",
+              where="post", color=BLACK, linewidth=1, zorder=1, label="none is better and cheaper")
     axes.set(xscale="log", yscale="log")
+    bars = sorted(row[bar] for row in rows)
+    if bars:
+        axes.axhspan(SMALLEST / 10, max(SMALLEST, PERCENT * bars[len(bars) // 2]), color=BLACK, alpha=0.08, linewidth=0,
+                     zorder=0, label="less than the scatter over time (median)")
+        axes.set_ylim(bottom=0.5 * min(sizes(rows, error)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(True, which="major", alpha=0.3)
     few_ticks(axes.xaxis)

@@ -29,8 +29,13 @@ bool Options::overruled(const std::string& name, const std::vector<std::string>&
 
 void Options::refuse_idle(const std::vector<std::string>& names, const Idle& idle) const {
   const std::string why = "has no effect " + idle.why;
+  // A flag that is given as false, as it is by default, asks for nothing that could be idle.
+  const auto is_off = [this](const std::string& name) {
+    const Option& option = *match(name).option;
+    return option.kind == Kind::flag && option.fallback == "false" && !flag(name);
+  };
   for (const std::string& name : names)
-    if (given(name) && !overruled(name, idle.causes, why))
+    if (given(name) && !is_off(name) && !overruled(name, idle.causes, why))
       throw UserError("-" + name + " " + why + "; remove it, or " + idle.cure);
 }
 

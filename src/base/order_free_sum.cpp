@@ -11,6 +11,7 @@ namespace {
 
 constexpr int bits = 53;                ///< of a double
 constexpr int largest_exponent = 1022;  ///< of a cut
+constexpr int reach = 60;               ///< how many bits below the largest term count
 
 /// Compiled for several vector instructions, of which the program takes the widest there are; sums that are
 /// free of order have the same bits with all. Not beside a sanitizer, which starts after the choice is made.
@@ -24,7 +25,22 @@ constexpr int largest_exponent = 1022;  ///< of a cut
 using Side = double __attribute__((vector_size(64)));
 constexpr std::size_t lanes = sizeof(Side) / sizeof(double);
 
-/// Sums of the parts of terms, a multiple of `lanes`, into the lanes of `sums`.
+/// Sums of the first two parts of terms, a multiple of `lanes`, into the lanes of `sums`.
+SLIPSCALE_CLONES void add_two_parts(const double* terms, std::size_t count, const double* cut, Side* sums) {
+  Side high = sums[0], middle = sums[1];
+  const double first_cut = cut[0], second_cut = cut[1];
+  for (std::size_t k = 0; k < count; k += lanes) {
+    Side rest;
+    std::memcpy(&rest, terms + k, sizeof rest);
+    const Side first = (rest + first_cut) - first_cut;
+    high += first;
+    rest -= first;
+    middle += (rest + second_cut) - second_cut;
+  }
+  sums[0] = high, sums[1] = middle;
+}
+
+/// The same of all three parts.
 SLIPSCALE_CLONES void add_parts(const double* terms, std::size_t count, const double* cut, Side* sums) {
   Side high = sums[0], middle = sums[1], low = sums[2];
   const double first_cut = cut[0], second_cut = cut[1], third_cut = cut[2];
@@ -73,6 +89,9 @@ bool can_be_cut(double largest, std::int64_t count) {
          (largest == 0 || std::ilogb(largest) + 1 + room_for(count) <= largest_exponent);
 }
 
+/// Whether the first two parts reach far enough below the largest term: of no more than 4 million terms.
+bool two_are_enough(std::int64_t count) { return 2 * (bits - room_for(count)) >= reach; }
+
 /// Adding and taking away these numbers rounds a term to a multiple of their last bit.
 CutSum cuts(double largest, std::int64_t count) {
   const int room = room_for(count);
@@ -105,8 +124,9 @@ CutSum cut_sum(std::span<const double> terms, double largest, std::int64_t count
   const CutSum cut = cuts(largest, count);
   Side sums[3] = {};
   const std::size_t whole = terms.size() / lanes * lanes;
-  add_parts(terms.data(), whole, cut.data(), sums);
-  add_parts(rest_of(terms, whole).data(), lanes, cut.data(), sums);
+  const auto add = two_are_enough(count) ? add_two_parts : add_parts;
+  add(terms.data(), whole, cut.data(), sums);
+  add(rest_of(terms, whole).data(), lanes, cut.data(), sums);
   CutSum total{};
   for (std::size_t part = 0; part < total.size(); ++part)
     for (std::size_t lane = 0; lane < lanes; ++lane) total[part] += sums[part][lane];

@@ -4,6 +4,7 @@
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/physical_range.hpp"
+#include "slipscale/base/print.hpp"
 
 namespace slipscale {
 
@@ -56,6 +57,24 @@ int inclusions_region(const std::string& region, const std::vector<std::string>&
         ", the only region of the mesh, which has no interface; leave it out, or give the mesh of a "
         "composite");
   return static_cast<int>(found - regions.begin());
+}
+
+/// The interface of an inclusion goes round it, ∮ (x − centre) · n ds > 0, twice its area where it is closed;
+/// that of a matrix goes round the inclusions, and n points into them.
+std::string doubt_about(const std::string& region, const Inclusions& inclusions) {
+  std::vector<double> turned(inclusions.area.size(), 0);
+  for (const InterfaceNode& node : inclusions.interface) {
+    const Vector2& centre = inclusions.centre[node.inclusion];
+    for (int axis = 0; axis < 2; ++axis)
+      turned[node.inclusion] += (node.position[axis] - centre[axis]) * node.normal[axis] * node.length;
+  }
+  const auto around = std::ranges::count_if(turned, [](double sum) { return sum < 0; });
+  if (around == 0) return "";
+  return format(
+      "-interfaces_region {}: {} of the {} inclusions that it makes lie{} around other regions, as a matrix "
+      "does; "
+      "name the region of the inclusions where theirs are meant",
+      region, around, inclusions.size(), around == 1 ? "s" : "");
 }
 
 void refuse_no_interface(const std::string& region, const Inclusions& inclusions) {

@@ -11,7 +11,8 @@
 namespace slipscale {
 namespace {
 
-constexpr double between_batches = 0.5;  // s
+constexpr double between_batches = 0.5;    // s
+constexpr std::size_t most_shown = 10000;  ///< rows in the .xdmf, of which each takes a kilobyte
 constexpr const char* names[] = {"normal", "shear", "index"};
 constexpr const char* units[] = {"Pa", "Pa", "1"};
 
@@ -177,6 +178,12 @@ std::string InterfacesFile::place_of(const InterfacePeak& peak) const {
 }
 
 std::string InterfacesFile::headline() const {
+  constexpr std::size_t few = 10;
+  const std::size_t rows = file_.rows();
+  return finding() + (rows > few ? "" : format(" ({} row{} looked at)", rows, rows == 1 ? " was" : "s were"));
+}
+
+std::string InterfacesFile::finding() const {
   const auto& peaks = peaks_.front();
   const auto first = std::ranges::min_element(peaks, {}, [](const InclusionPeaks& p) {
     return p.debonds.row < 0 ? std::numeric_limits<double>::infinity() : p.debonds.time;
@@ -248,7 +255,8 @@ std::string InterfacesFile::xdmf(const std::string& name) {
         "<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{}:{}</DataItem>",
         dimensions, name, path);
   };
-  for (std::size_t n = 0; n < times.size(); ++n) {
+  const std::size_t stride = 1 + times.size() / most_shown;
+  for (std::size_t n = 0; n < times.size(); n += stride) {
     text +=
         format("      <Grid Name=\"interfaces\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n",
                times[n]);

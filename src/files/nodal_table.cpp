@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
@@ -50,7 +51,8 @@ std::vector<Column> head_of(const std::string& where, const std::string& line) {
 }
 
 std::vector<Row> rows_of(const std::string& where, const std::string& text) {
-  std::istringstream lines(text);
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8, which spreadsheets put first
+  std::istringstream lines(text.starts_with(mark) ? text.substr(mark.size()) : text);
   std::string line;
   std::vector<Column> order;
   std::vector<Row> rows;

@@ -92,6 +92,33 @@ std::string short_memory(const SlidingBody& body) {
          format("{:.3g}", memory.time * least_edges * memory.edge / memory.length);
 }
 
+/// Of all that is recorded again and again: "fields.h5", and how often.
+struct Output {
+  std::string file;
+  const Cadence& cadence;
+};
+std::vector<Output> outputs_of(const RecordChoice& record) {
+  return {{"history.h5", record.history},
+          {"contact.h5", record.contact},
+          {"interfaces.h5", record.interface_rows},
+          {"fields.h5", record.fields}};
+}
+
+/// What is recorded more seldom than once in a run has two rows that look like findings.
+std::string rows_apart(const TimeStep& step, const RecordChoice& record) {
+  std::string files;
+  for (const auto& [file, cadence] : outputs_of(record))
+    if (cadence.given() && cadence.steps(step.step, 1) > step.count)
+      files += (files.empty() ? "" : ", ") + file + " (-" +
+               (cadence.interval ? cadence.option + format(" {:g} s)", *cadence.interval)
+                                 : cadence.option.substr(0, cadence.option.rfind('_')) +
+                                       format("_every {} steps)", *cadence.every));
+  if (files.empty()) return "";
+  return "nothing between start and end is recorded in " + files + ", as the run has " +
+         format("{} steps to {:g} s; give less, or a later -time_end", step.count,
+                static_cast<double>(step.count) * step.step);
+}
+
 long contact_nodes(const SlidingBody& body) {
   auto count = static_cast<long>(body.contact().node.size());
   MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_LONG, MPI_SUM, body.comm());
@@ -135,8 +162,9 @@ OutputCosts output_costs(double nodes, double contact_nodes) {
 
 std::vector<std::string> hints_at_start(const SlidingBody& body, const TimeStep& step,
                                         const RecordChoice& record) {
-  std::vector<std::string> found{given_twice(body.model()), idle_damping(body, step), small_step(step),
-                                 short_memory(body), dear_outputs(body, step, record)};
+  std::vector<std::string> found{
+      given_twice(body.model()), idle_damping(body, step),         small_step(step),
+      short_memory(body),        dear_outputs(body, step, record), rows_apart(step, record)};
   std::erase(found, "");
   return found;
 }

@@ -23,7 +23,7 @@ InterfaceRecord::InterfaceRecord(const SlidingBody& body, const InterfaceChoice&
 
 void InterfaceRecord::keep_past() {
   std::copy_n(body_.displacement_n(), strained_.size(), past_->data());
-  has_past_ = true;
+  kept_ = static_cast<double>(body_.steps_done());
 }
 
 std::vector<Vector2> InterfaceRecord::forces() const {
@@ -32,7 +32,7 @@ std::vector<Vector2> InterfaceRecord::forces() const {
   const StepCoefficients step =
       first ? first_step(body_.time_step(), scene.beta2) : beta2_step(body_.time_step(), scene.beta2);
   const Vector2 *const u = body_.displacement_n(), *strained = u;
-  if (past_ && has_past_ && !first) {
+  if (past_ && kept_ > 0 && kept_ == static_cast<double>(body_.steps_done() - 1)) {
     const double lag = scene.damping.stiffness / body_.time_step();
     for (std::size_t i = 0; i < strained_.size(); ++i)
       for (int axis = 0; axis < 2; ++axis)
@@ -64,7 +64,6 @@ std::string InterfaceRecord::describe() const {
 std::vector<StateGroup> InterfaceRecord::state() {
   if (!past_) return {};
   const Nodes& nodes = body_.model().mesh.nodes;
-  carried_ = has_past_ ? 1 : 0;
   return {{"interface_nodes",
            {nodes.number.begin(), nodes.number.begin() + nodes.owned},
            nodes.total,
@@ -75,12 +74,11 @@ std::vector<StateGroup> InterfaceRecord::state() {
            {0},
            0,
            is_root(body_.comm()),
-           {{"kept", "1", "1 when such a step was kept", 1, &carried_}}}};
+           {{"kept", "1", "steps made when it was kept; 0: none was", 1, &kept_}}}};
 }
 
 void InterfaceRecord::resume() {
   if (!past_) return;
-  has_past_ = carried_ != 0;
   past_->begin_update();
   past_->end_update();
 }

@@ -24,6 +24,24 @@ std::optional<long> steps_or_auto(const Options& options, const std::string& nam
   return static_cast<long>(steps);
 }
 
+/// The two options that say how often something is recorded. `every`: kind, range, default and help of that
+/// in steps; the other is like it.
+Schema cadence_schema(const std::string& what, Option every) {
+  every.name = what + "_every";
+  return {every,
+          {what + "_interval", Kind::real, "s", absent, range::positive,
+           "time between them, in place of " + every.name + "; rounded to whole steps"}};
+}
+
+/// Of a file whose rows are about a thousand by default.
+Schema thousand_rows(const std::string& what, const std::string& file) {
+  return cadence_schema(what,
+                        {"", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
+                         "steps between the rows of " + file +
+                             "; auto makes about a thousand rows, in a short run one in 25 steps, and a "
+                             "restart with a later end keeps their distance"});
+}
+
 /// -<what>_every, which may have a default, or -<what>_interval.
 Cadence read_cadence(const Options& options, const std::string& what,
                      const std::function<std::optional<long>(const std::string&)>& every) {
@@ -98,19 +116,9 @@ long Cadence::steps(double step, long otherwise) const {
 
 Schema record_schema() {
   const Schema own = {
-      {"interfaces_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
-       "steps between the rows of interfaces.h5; auto makes about a thousand rows, and a restart with a "
-       "later "
-       "end keeps their distance"},
-      {"interfaces_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of interfaces_every; rounded to whole steps"},
       {"output_folder", Kind::text, "", "out", range::any,
        "folder of the run; an older run in it is replaced once the scene has proved right, and kept in its "
        "folder `replaced` if it was interrupted and could go on"},
-      {"history_every", Kind::integer, "1", "10", range::at_least_one,
-       "steps between the rows of history.h5"},
-      {"history_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of history_every; rounded to whole steps"},
       {"history_points", Kind::reals, "m", absent, range::any,
        "points x1,y1,x2,y2,... whose u, v and stress are followed"},
       {"history_momentum",
@@ -119,12 +127,6 @@ Schema record_schema() {
        "false",
        {},
        "whether history.h5 has rows of the body's linear and angular momentum, and of rigid sides"},
-      {"contact_every", Kind::text, "1", "auto", range::one_of_or_number({"auto"}, range::at_least_one),
-       "steps between the rows of contact.h5; auto makes about a thousand rows, and a restart with a later "
-       "end "
-       "keeps their distance"},
-      {"contact_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of contact_every; rounded to whole steps"},
       {"contact_sums",
        Kind::flag,
        "",
@@ -132,10 +134,6 @@ Schema record_schema() {
        {},
        "whether contact.h5 has friction work, slip distance, time closed, impulse and closures of each node, "
        "summed over every step and not only those of its rows; slipscale wear reads them"},
-      {"fields_every", Kind::integer, "1", absent, range::at_least_one,
-       "steps between the frames of fields.h5"},
-      {"fields_interval", Kind::real, "s", absent, range::positive,
-       "time between them, in place of fields_every; rounded to whole steps"},
       {"fields_times", Kind::reals, "s", absent, range::any, "times of the frames, in place of fields_every"},
       {"fields_quantities", Kind::text, "", "u,v,stress", range::any,
        "what a frame holds: some of u,v,stress,strain,von_mises,principal,damping_work; the last, energy "
@@ -176,7 +174,13 @@ Schema record_schema() {
       {"run_<entry>", Kind::text, "", absent, range::any,
        "facts that run.yaml carries; ignored when it is read again"},
   };
-  return interface_schema() + own;
+  return interface_schema() + thousand_rows("interfaces", "interfaces.h5") +
+         cadence_schema("history", {"", Kind::integer, "1", "25", range::at_least_one,
+                                    "steps between the rows of history.h5"}) +
+         thousand_rows("contact", "contact.h5") +
+         cadence_schema("fields", {"", Kind::integer, "1", absent, range::at_least_one,
+                                   "steps between the frames of fields.h5"}) +
+         own;
 }
 
 RecordChoice read_record(const Options& options) {

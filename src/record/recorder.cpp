@@ -5,22 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "astray.hpp"
 #include "slipscale/base/log.hpp"
 #include "slipscale/base/parallel.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/base/provenance.hpp"
 #include "slipscale/base/yaml_text.hpp"
-#include "slipscale/record/stress_measures.hpp"
-#include "slipscale/solid/stress.hpp"
 #include "summary.hpp"
 
 namespace slipscale {
 namespace {
-
-/// Above this part of what flowed, energy has appeared from nowhere: rounding stays ten thousand times below
-/// it, but where next to nothing flows in a body that is displaced far (see rounding_of_balance).
-constexpr double largest_sound_residual = 1e-6;
 
 /// The steps at which frames are due, ascending.
 std::vector<long> steps_of(const std::vector<double>& times, const TimeStep& time) {
@@ -71,30 +64,18 @@ const RecordChoice& checked(const SlidingBody& body, const RecordChoice& choice)
   return choice;
 }
 
-/// σ_zz/(σ_xx + σ_yy) of each local cell, for frames that need it.
-std::vector<double> transverse_of_cells(const Model& model, const RecordChoice& choice) {
-  if (!choice.quantities.stress && !choice.quantities.von_mises) return {};
-  std::vector<double> of_region;
-  for (const Material& material : model.materials) of_region.push_back(transverse_ratio(material));
-  std::vector<double> of_cell;
-  std::string fault;
-  for (int cell = 0; cell < model.mesh.cells.size(); ++cell) {
-    const int region = model.mesh.cells.region[cell];
-    const Solid solid = model.materials[region].at(cell);
-    const bool graded = model.materials[region].grading != nullptr;
-    of_cell.push_back(graded ? transverse_ratio({solid.stiffness, solid.density, ""}) : of_region[region]);
-    if (fault.empty() && choice.quantities.von_mises && std::isnan(of_cell.back()))
-      fault = "-fields_quantities has von_mises, but the stiffness of region '" +
-              model.mesh.regions[region].name +
-              "' is not isotropic and does not tell the stress across the plane; leave von_mises out";
-  }
-  throw_together(model.mesh.comm, fault);
-  return of_cell;
+/// Of each local cell, for frames that need it.
+std::vector<double> transverse_of(const SlidingBody& body, const FieldQuantities& quantities) {
+  if (!quantities.stress && !quantities.von_mises) return {};
+  return transverse_of_cells(body.model(), quantities.von_mises);
 }
 
-/// About a thousand rows, or what the run before a restart made of that, whatever its end is now.
-long thousand_rows(double by_itself, double before, const TimeStep& time) {
-  return by_itself != 0 ? static_cast<long>(before) : std::max(1L, time.count / 1000);
+/// Steps between rows that nobody chose: about a thousand rows, and in a short run no more than one in 25
+/// steps, so that they cost little of it; or what the run before a restart made of that, whatever its end is
+/// now.
+long by_itself(double before_by_itself, double before, const TimeStep& time) {
+  constexpr long rows = 1000, least = 25;
+  return before_by_itself != 0 ? static_cast<long>(before) : std::max(least, time.count / rows);
 }
 
 /// Whether the force of every step is kept beside rows that are sparser: from the start on, or not at all.
@@ -116,17 +97,6 @@ std::vector<std::string> files_of_a_run() {
           "interfaces.yaml", checkpoint_names[0], checkpoint_names[1], checkpoint_next};
 }
 
-Eigen::Matrix3d compliance(const Eigen::Matrix3d& stiffness) {
-  return stiffness.llt().solve(Eigen::Matrix3d::Identity());
-}
-
-/// Of each region, 1/Pa.
-std::vector<Eigen::Matrix3d> compliances(const std::vector<Material>& materials) {
-  std::vector<Eigen::Matrix3d> found;
-  for (const Material& material : materials) found.push_back(compliance(material.stiffness));
-  return found;
-}
-
 }  // namespace
 
 Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const TimeStep& time,
@@ -139,13 +109,13 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       last_(time.count),
       history_every_(choice.history.steps(time.step, 1)),
       has_contact_(body.scene().surface.has_value()),
-      contact_every_(choice.contact.steps(
-          time.step, thousand_rows(position_.contact_auto, position_.contact_every, time))),
+      contact_every_(
+          choice.contact.steps(time.step, by_itself(position_.contact_auto, position_.contact_every, time))),
       interfaces_every_(choice.interface_rows.steps(
-          time.step, thousand_rows(position_.interfaces_auto, position_.interfaces_every, time))),
+          time.step, by_itself(position_.interfaces_auto, position_.interfaces_every, time))),
       fields_every_(choice.fields.given() ? std::optional(choice.fields.steps(time.step, 1)) : std::nullopt),
       field_steps_(steps_of(choice.fields_times, time)),
-      transverse_(transverse_of_cells(body.model(), choice)),
+      transverse_(transverse_of(body, choice.quantities)),
       window_(window_of(choice, time, restart)),
       observer_(body, choice.momentum),
       probes_(body.comm(), body.model(), choice.points),
@@ -153,7 +123,7 @@ Recorder::Recorder(const SlidingBody& body, const RecordChoice& choice, const Ti
       keeps_force_(keeps_force(position_, history_every_, restart != nullptr)),
       force_(body, keeps_force_ ? observer_.measured() : -1, time.count),
       folder_(body.comm(), choice.folder, restart ? std::vector<std::string>{} : files_of_a_run(), can_go_on),
-      compliance_(compliances(body.model().materials)),
+      cells_(body),
       progress_(choice.progress, restart ? static_cast<double>(restart->steps_done()) * time.step : 0,
                 static_cast<double>(time.count) * time.step),
       start_(std::chrono::steady_clock::now()) {
@@ -242,10 +212,7 @@ void Recorder::observe(long n) {
   share_faults();
   if (!bulk) return;
   last_sound_ = n;
-  const double relative = seen.energy.flowed > 0 ? std::abs(seen.energy.residual) / seen.energy.flowed : 0;
-  double& largest = relative > largest_sound_residual ? rounded_residual_ : largest_residual_;
-  largest = std::max(largest, relative);
-  progress_.note(seen.friction, relative);
+  progress_.note(seen.friction, note_residual(seen.energy));
 }
 
 void Recorder::record_interfaces(long n) {
@@ -259,81 +226,16 @@ void Recorder::record_interfaces(long n) {
 void Recorder::record_cells(long n) {
   const bool frame = fields_due(n), sample = statistics_due(n);
   if (!frame && !sample) return;
-  const Model& model = body_.model();
-  const Cells& cells = model.mesh.cells;
-  const bool strain = sample || choice_.quantities.strain;
-  if (strain || choice_.quantities.of_stress())
-    cell_stress(model.mesh, model.materials, body_.displacement_n(), stress_);
-  if (strain) strain_.resize(stress_.size());
-  for (int cell = 0; strain && cell < cells.size(); ++cell) {
-    const int region = cells.region[cell];
-    const auto stress = Eigen::Vector3d::Map(stress_[cell].data());
-    auto found = Eigen::Vector3d::Map(strain_[cell].data());
-    if (model.materials[region].grading)
-      found = compliance(model.materials[region].at(cell).stiffness) * stress;
-    else
-      found = compliance_[region] * stress;
-  }
-  if ((frame && choice_.quantities.damping_work) || (sample && statistics_->damping()))
-    body_.cell_damping(damping_);
+  const FieldQuantities& quantities = choice_.quantities;
+  cells_.make(sample || quantities.of_stress(), sample || quantities.strain,
+              (frame && quantities.damping_work) || (sample && statistics_->damping()));
   const auto rows = [](const auto& values) { return values.empty() ? nullptr : values[0].data(); };
   if (frame) {
-    fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), rows(stress_),
-                   rows(strain_), damping_.data());
+    fields_->write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(),
+                   rows(cells_.stress()), rows(cells_.strain()), cells_.damping().data());
     last_frame_ = n;
   }
-  if (sample) statistics_->add(body_.time(), stress_, strain_, damping_);
-}
-
-void Recorder::check(const Observation& seen) const {
-  const Energy& e = seen.energy;
-  if (!body_.formulas_sound()) {
-    std::string names;
-    for (const std::string& name : unsteady_formulas(body_.scene()))
-      names += (names.empty() ? "-" : ", -") + name;
-    stop(format(
-             "step {} (t = {:g} s): a formula has made what is no number, or none that its option may have: "
-             "one of {}",
-             seen.step, seen.time, names),
-         "See what it makes at all times up to that one");
-  }
-  const bool finite = std::isfinite(e.kinetic) && std::isfinite(e.strain) && std::isfinite(e.flowed);
-  if (finite && std::abs(e.residual) <= largest_sound_residual * e.flowed) return;
-  if (finite && std::abs(e.residual) <= rounding_of_balance(body_)) return;
-  const Astray why = explain(e, most_displaced(body_), time_, history_every_);
-  stop(format("step {} (t = {:g} s): ", seen.step, seen.time) + why.fault, why.cure);
-}
-
-void Recorder::stop(const std::string& fault, const std::string& cure) const {
-  std::string kept = last_sound_ < 0 ? "nothing was recorded before it"
-                                     : format("what was recorded up to step {}", last_sound_);
-  if (last_frame_ >= 0) kept += format(", with a last frame of step {},", last_frame_);
-  if (last_sound_ >= 0) kept += " is kept in '" + folder_.path() + "'";
-  if (statistics_ && statistics_->samples() > 0) {
-    kept += format(", and the statistics of {} samples", statistics_->samples());
-    try {
-      statistics_->write(folder_.path());
-    } catch (const RunError& error) {
-      kept = error.what();
-    }
-  }
-  try {
-    const MPI_Comm comm = body_.comm();
-    FieldsFile state(comm, MeshImage(comm, body_.model().mesh), folder_.path(), {true, true, false}, "fault");
-    state.write(body_.time(), body_.displacement_n()->data(), body_.velocity_n()->data(), nullptr);
-    state.close();
-    kept += ", and the state of this step is in '" + folder_.path("fault.xdmf") + "'";
-  } catch (const RunError& error) {
-    kept = error.what();
-  }
-  throw RunError(fault + "; " + kept + ". " + cure);
-}
-
-void Recorder::share_faults() {
-  std::string fault;
-  for (const SeriesFile* series : all_series())
-    if (!series->fault().empty()) fault = series->fault();
-  stop_together(body_.comm(), fault);
+  if (sample) statistics_->add(body_.time(), cells_.stress(), cells_.strain(), cells_.damping());
 }
 
 }  // namespace slipscale

@@ -60,7 +60,8 @@ std::string Recorder::forecast() const {
          format("{} steps to {}, about {}, memory {}, output {} in '{}'\n", last_,
                 engineering(static_cast<double>(last_) * time_.step, "s"), readable_duration(seconds),
                 readable_bytes(memory_of_all_ranks(body_.comm())), readable_bytes(bytes), folder_.path()) +
-         cadences() + (statistics_ ? statistics_->forecast(time_.step) : "");
+         cadences() + (statistics_ ? statistics_->forecast(time_.step) : "") +
+         (interfaces_ && !interfaces_->doubt().empty() ? "note: " + interfaces_->doubt() + "\n" : "");
 }
 
 std::string Recorder::cadences() const {
@@ -84,6 +85,8 @@ void Recorder::write_run(const Options& options) const {
     const Mesh& mesh = model.mesh;
     yaml.text("program", "slide").text("version", version).integer("ranks", ranks);
     yaml.text("mesh_checksum", checksum_text(mesh.checksum), "of the mesh file");
+    if (mesh.periodic[0] || mesh.periodic[1])
+      yaml.text("periodic", std::string(mesh.periodic[0] ? "x" : "") + (mesh.periodic[1] ? "y" : ""));
     for (std::size_t k = 0; k < mesh.notes.size(); ++k)
       yaml.text(format("mesh_note_{}", k + 1), mesh.notes[k]);
     yaml.integer("nodes", mesh.nodes.total).integer("cells", mesh.cells.total);
@@ -147,6 +150,7 @@ std::string Recorder::summary(long steps, const std::string& why, const std::str
   const Momentum momentum = why.empty() ? body_.momentum() : Momentum{};
   std::vector<std::string> remarks = remarks_at_start(body_);
   for (std::string& remark : remarks_at_end(body_)) remarks.push_back(std::move(remark));
+  if (interfaces_ && !interfaces_->doubt().empty()) remarks.push_back(interfaces_->doubt());
   if (rounded_residual_ > 0)
     remarks.push_back(format(
         "rows in which the energy balance misses up to {:.2g} of what flowed are left out of the largest "

@@ -14,6 +14,7 @@ namespace slipscale {
 namespace {
 
 constexpr std::size_t peaks_listed = 3;
+constexpr double still = 1e-9;  ///< of the mean normal force: what varies less is constant to rounding
 
 /// The rows over which averages are taken.
 class Window {
@@ -48,6 +49,11 @@ void write_average(Yaml& yaml, const std::string& name, const Average& average, 
 
 /// Frequencies of which the rows of history.h5 tell, and which of them are not what they seem.
 void write_spectrum(Yaml& yaml, const SummaryInput& in, std::vector<double> signal, double normal) {
+  const auto [lowest, highest] = std::ranges::minmax(signal);
+  if (!(highest - lowest > still)) {
+    yaml.remark("no frequency: the tangential force is constant to rounding");
+    return;
+  }
   // The last row may come early; the others are evenly spaced.
   if (signal.size() > 2 && (in.rows.back().step % in.history_every) != 0) signal.pop_back();
   const double interval = static_cast<double>(in.history_every) * in.time.step;

@@ -30,9 +30,9 @@ struct SummaryInput {
 /// Averages are over `default_window`, the second half of the run, each with its standard error from blocks
 /// of it (`mean_of`); whether the run had settled in it is judged by `settling` of the tangential over the
 /// mean normal force, and the regime has its name by `regime`, all in averages.hpp. Peaks are those of
-/// `welch` of the same signal (spectrum.hpp), of three half-overlapping segments; what the recorded rows may
-/// have folded into them is looked for in the force on every step. The energy terms are those of `Energy`
-/// (ledger.hpp).
+/// `welch` of the same signal (spectrum.hpp), of three half-overlapping segments, where it varies by more
+/// than rounding; what the recorded rows may have folded into them is looked for in the force on every step.
+/// The energy terms are those of `Energy` (ledger.hpp).
 std::string summary_text(const SummaryInput& input);
 
 }  // namespace slipscale

@@ -1,5 +1,8 @@
 #include "slipscale/relocalize/local_interfaces.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "slipscale/base/error.hpp"
 #include "slipscale/base/print.hpp"
 #include "slipscale/relocalize/boundary_layer.hpp"
@@ -15,15 +18,51 @@ std::vector<PetscInt> cells_of(const StressForces& forces, const RankShare& mine
   return own;
 }
 
+/// The grid with its points moved into the block, those of the far side of a seam onto the near one.
+PlaneGrid wrapped(PlaneGrid grid, const Seam& seam) {
+  constexpr double rounding = 1e-9;  // of a period
+  for (Vector2& point : grid.points)
+    for (int axis = 0; axis < 2; ++axis)
+      if (const double period = seam.period[axis]; period > 0)
+        point[axis] -= std::floor((point[axis] - seam.lower[axis]) / period + rounding) * period;
+  return grid;
+}
+
+/// Whether each of the edges (ascending) is one of a cell of another region.
+std::vector<char> beside_others(const PlaneGrid& grid, int region, const std::vector<int>& node,
+                                const std::vector<std::array<int, 2>>& edges) {
+  std::vector<char> mark(edges.size(), 0);
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    const int begin = grid.first[cell], count = grid.corner_count(cell);
+    for (int k = 0; k < count && grid.region[cell] != region; ++k) {
+      const int a = node[grid.corners[begin + k]], b = node[grid.corners[begin + (k + 1) % count]];
+      const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
+      const auto found = std::ranges::lower_bound(edges, ends);
+      if (found != edges.end() && *found == ends) mark[found - edges.begin()] = 1;
+    }
+  }
+  return mark;
+}
+
 }  // namespace
 
+RegionInclusions inclusions_across(const PlaneGrid& grid, int region, const Seam& seam) {
+  if (seam.period[0] == 0 && seam.period[1] == 0) return find_inclusions(grid, region, joined_points(grid));
+  const std::vector<int> node = joined_points(wrapped(grid, seam));
+  RegionInclusions found = find_inclusions(grid, region, node);
+  found.cells.period = seam.period;
+  found.cells.lower = seam.lower;
+  found.inclusions =
+      find_inclusions(found.cells, beside_others(grid, region, node, outline_edges(found.cells)));
+  return found;
+}
+
 LocalInterfaces::LocalInterfaces(MPI_Comm comm, const Targets& targets, const RankShare& mine,
-                                 const InterfaceChoice& choice)
+                                 const InterfaceChoice& choice, const Seam& seam)
     : comm_(comm),
       choice_(choice),
       mine_(mine),
-      found_(find_inclusions(targets.grid, inclusions_region(choice.region, targets.grid.regions),
-                             joined_points(targets.grid))),
+      found_(inclusions_across(targets.grid, inclusions_region(choice.region, targets.grid.regions), seam)),
       of_stress_(targets.grid, found_),
       gather_(comm, cells_of(of_stress_, mine)) {
   refuse_no_interface(choice.region, found_.inclusions);
@@ -34,6 +73,11 @@ LocalInterfaces::LocalInterfaces(MPI_Comm comm, const Targets& targets, const Ra
 std::string LocalInterfaces::describe() const {
   return format("interfaces of {} inclusions of region '{}', {} nodes\n", found_.inclusions.size(),
                 choice_.region, found_.inclusions.interface.size());
+}
+
+std::vector<std::string> LocalInterfaces::notes() const {
+  const std::string doubt = doubt_about(choice_.region, found_.inclusions);
+  return doubt.empty() ? std::vector<std::string>{} : std::vector{doubt};
 }
 
 void LocalInterfaces::open(const std::string& folder, std::size_t frames) {

@@ -33,6 +33,22 @@ TEST_F(IdleOptions, AreRefused) {
   }
 }
 
+/// What is off is not idle, wherever it stands; what is on is.
+TEST_F(IdleOptions, AreNoFlagsThatAreOff) {
+  for (const auto& [value, refused] : {std::pair{"false", false}, {"no", false}, {"true", true}}) {
+    const Options read("slide", schema(),
+                       {{"relocalize_correction", "true", {1, "a.yaml"}},
+                        {"relocalize_correction", value, {2, "b.yaml"}},
+                        {"friction_law", "none", {1, "a.yaml"}}});
+    EXPECT_EQ(!sentence([&] { read.refuse_idle({"relocalize_correction"}, no_law); }).empty(), refused)
+        << value;
+    if (refused) continue;
+    (void)read.text("friction_law");
+    ask_for_all(read);
+    EXPECT_NO_THROW(read.refuse_unread());
+  }
+}
+
 TEST_F(IdleOptions, AreSetAsideWhereALaterPlaceMakesThemIdle) {
   const Options read = from(1, 2);
   (void)read.real("friction_coefficient");

@@ -50,9 +50,24 @@ TEST(OrderFreeSum, HasTheSameBitsInEveryOrder) {
   }
 }
 
+/// Of more terms than two parts are enough for; here those that are not zero lie on few places.
+TEST(OrderFreeSum, HasThreePartsWhereTermsAreMany) {
+  std::vector<double> all = terms(5003, 8);
+  const double largest = largest_size(all);
+  const long double exact = std::accumulate(all.begin(), all.end(), 0.0L);
+  for (const std::int64_t count : {std::int64_t{1} << 21, std::int64_t{1} << 23, std::int64_t{1} << 34}) {
+    const CutSum whole = cut_sum(all, largest, count);
+    EXPECT_EQ(whole[2] != 0, count > std::int64_t{1} << 22);
+    EXPECT_NEAR(whole[0] + (whole[1] + whole[2]), static_cast<double>(exact), std::ldexp(largest, -45));
+    std::reverse(all.begin(), all.end());
+    EXPECT_EQ(cut_sum(all, largest, count), whole);
+    EXPECT_EQ(sum_on_ranks(all, count), whole[0] + (whole[1] + whole[2]));
+  }
+}
+
 TEST(OrderFreeSum, KeepsWhatCancels) {
   EXPECT_EQ(sum_on_ranks({1e16, 1, -1e16, 2}, 4), 3);
-  EXPECT_EQ(sum_on_ranks({1, 1e-17, -1}, 3), 1e-17);
+  EXPECT_NEAR(sum_on_ranks({1, 1e-17, -1}, 3), 1e-17, std::ldexp(1, -99));  // two parts of 50 bits
 }
 
 TEST(OrderFreeSum, OfNothingAndOfLittle) {

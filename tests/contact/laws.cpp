@@ -184,6 +184,16 @@ TEST(RegularisedStrength, DiffersFromTheInstantaneousThreshold) {
   EXPECT_EQ((RegularisedInstantaneous{mu, relaxation(0.1)}(demand, traction).status), ContactStatus::stick);
 }
 
+/// Help of what belongs to some laws alone says so.
+TEST(Laws, HelpNamesTheLawThatAnOptionBelongsTo) {
+  for (const Option& option : friction_schema()) {
+    if (option.name.find('<') != std::string::npos || option.name == "friction_law" ||
+        option.name == "friction_coefficient")
+      continue;
+    EXPECT_NE(option.help.find("law"), std::string::npos) << option.name << ": " << option.help;
+  }
+}
+
 /// T = L/(|slip rate| + V*), the same for both directions of slip.
 TEST(SlipRate, IsTheLawWithItsOwnTime) {
   constexpr double length = 0.3, step = 0.02;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graded.hpp"
 #include "report.hpp"
 #include "scenes.hpp"
 #include "slipscale/base/order_free_sum.hpp"
@@ -248,4 +249,38 @@ TEST(CellDamping, OfATriangleIsThatOfItsStrain) {
   for (const double value : expected) largest = std::max(largest, value);
   for (std::size_t cell = 0; cell < density.size(); ++cell)
     EXPECT_NEAR(density[cell], expected[cell], 1e-9 * largest);
+}
+
+/// A body that is strained everywhere at one rate, two of whose regions are graded: b Δt ε̇:C:ε̇ with the
+/// stiffness of each cell, in the first step. Damping is so weak that it does not change the rate.
+TEST(CellDamping, OfAGradedBodyIsThatOfEachCell) {
+  const Eigen::Vector3d rate{3, -2, 4};  // 1/s
+  for (const Shape shape : {Shape::triangles, Shape::quadrilaterals, Shape::mixed}) {
+    const Mesh mesh = block_mesh(block(shape));
+    const auto stiffer = [](const Vector2& x) { return 1 + 400 * x[0] + 100 * x[1]; };
+    const auto heavier = [](const Vector2& x) { return 1 + 200 * x[1]; };
+    std::vector<Material> solids;
+    for (const Material& base : materials()) solids.push_back(graded(mesh, base, stiffer, heavier));
+    const Model model(mesh, solids, Model::Storage::full);
+    Scene scene;
+    scene.damping = {0, 1e-16};
+    auto fields = std::make_shared<InitialFields>();
+    for (const Vector2& x : mesh.nodes.position) {
+      fields->displacement.push_back({0, 0});
+      fields->velocity.push_back(
+          {rate[0] * x[0] + 0.5 * rate[2] * x[1], rate[1] * x[1] + 0.5 * rate[2] * x[0]});
+    }
+    scene.initial.fields = fields;
+    const double step = step_of(model, scene);
+    SlidingBody body(PETSC_COMM_WORLD, model, scene, step);
+    body.keep_cell_damping();
+    for (int n = 0; n < 2; ++n) body.advance(Observed::everything);
+    std::vector<double> density;
+    body.cell_damping(density);
+    for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+      if (!mesh.cells.owned[cell]) continue;
+      const Eigen::Matrix3d c = solids[mesh.cells.region[cell]].at(cell).stiffness;
+      EXPECT_NEAR(density[cell] / (scene.damping.stiffness * step * rate.dot(c * rate)), 1, 1e-6);
+    }
+  }
 }

@@ -76,6 +76,9 @@ class InitialFile(InScratch):
             np.testing.assert_allclose(v, bilinear(*x.T)[1], atol=1e-14)
         (self.folder / "state.csv").write_text(f'# metres\n"x", "y", "v"\n0,0,0\n{SIDE},0,0\n0,{SIDE},1e-6\n\n{SIDE},{SIDE},1e-6\n')
         self.run_scene({**BODY, "initial_file": "state.csv"})
+        plain = (self.folder / "state.csv").read_text()
+        (self.folder / "state.csv").write_text("\ufeff" + plain.split("\n", 1)[1], encoding="utf-8")  # as spreadsheets write it
+        self.run_scene({**BODY, "initial_file": "state.csv"})
         x, u, v = self.frame()
         np.testing.assert_allclose(u, np.stack([0 * x[:, 0], 1e-6 * x[:, 1] / SIDE], 1), atol=1e-20)
         self.assertEqual(np.abs(v).max(), 0)

@@ -114,6 +114,17 @@ class Interfaces(InScratch):
         document = xml.etree.ElementTree.parse(self.folder / "out" / "interfaces.xdmf")
         self.assertEqual(len(document.findall(".//Time")), len(self.read()["time"]))
 
+    def test_what_hardly_is_an_answer_is_said_so(self):
+        """Rows of start and end alone; the region of the matrix."""
+        out = self.run_scene({**FOLLOWED, "interfaces_every": None, "interfaces_interval": 1}, time_end=1e-6, ranks=2).out
+        self.assertIn("nothing between start and end is recorded in interfaces.h5 (-interfaces_interval 1 s)", out)
+        self.assertRegex((self.folder / "out" / "interfaces.yaml").read_text(), r"first: .*\(2 rows were looked at\)")
+        out = self.run_scene({**FOLLOWED, "interfaces_region": "matrix"}, time_end=1e-6, ranks=2).out
+        doubt = "-interfaces_region matrix: 1 of the 1 inclusions that it makes lies around other regions"
+        self.assertEqual(out.count(f"note: {doubt}"), 1)
+        self.assertIn(doubt, (self.folder / "out" / "summary.yaml").read_text())
+        self.assertNotIn("lies around", self.run_scene(FOLLOWED, time_end=1e-6).out)
+
     def test_of_a_uniform_state(self):
         """Equal phases under uniform stress, which the inclusions do not feel: t = σ n."""
         same = {f"material_inclusion_{name}": value for name, value in (("young", 30e9), ("poisson", 0.25), ("density", 1800))}

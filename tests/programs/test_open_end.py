@@ -50,9 +50,24 @@ class OpenEnd(InScratch):
                 for point in (0, 1):
                     self.assertLess(np.ptp(seen[f"points/{point}/u"], axis=0).max(), 1e-17)
                 np.testing.assert_allclose(seen["surface/normal_force"], pressure * SIDE, rtol=1e-9)
+                summary = (self.folder / "out" / "summary.yaml").read_text()
+                self.assertIn("no frequency: the tangential force is constant to rounding", summary)
+                self.assertNotIn("spectrum_peaks", summary)
         seen = self.history({**BODY, **contact, **sides, "initial_pressure": pressure, "boundary_top_pressure": 2 * pressure},
                             2, time_end=4e-6)
         self.assertGreater(seen["surface/normal_force"][-1], 1.1 * pressure * SIDE)
+
+    def test_off_on_a_held_side_is_off(self):
+        """Over a scene that has it on, and alone; on it is refused."""
+        block(self.folder / "block.msh")
+        (self.folder / "scene.yaml").write_text("boundary: {top: {absorbing: true}}\n")
+        for words in (["-options_file_yaml", "scene.yaml"], []):
+            outcome = self.slide(*words, *arguments_of({**BODY, "boundary_top_x": "fixed", "boundary_top_absorbing": "false",
+                                                        "time_end": 1e-7}), ranks=2)
+            self.assertEqual((outcome.codes, outcome.err), ([0, 0], ""), outcome.out)
+            self.assertNotIn("absorbing", outcome.out)
+        outcome = self.slide(*arguments_of({**BODY, **OPEN, "boundary_top_x": "fixed", "time_end": 1e-7}), ranks=2)
+        self.assert_refused("slide", outcome, ["-boundary_top_absorbing has no effect on a side whose motion"], 2)
 
     def test_a_pressed_top_yields_at_the_speed_of_its_damper(self):
         """A body without a bottom: p = ρ c_d v until the wave comes back."""

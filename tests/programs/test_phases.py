@@ -102,6 +102,25 @@ class Phases(InScratch):
             key = missing.split("_", 2)[2].replace("time", "length")
             self.assert_refused("slide", outcome, [f"-friction_{key}"], 2)
 
+    def test_constants_that_act_nowhere_and_friction_that_rises_are_told(self):
+        """Once, on any number of ranks; `back` does not touch the surface."""
+        short = {"time_end": 1e-7, "fields_every": None}
+        own = {**OWN, "friction_matrix_time": 6e-7, "friction_inclusion_length": 1.2e-6}
+        for ranks in (1, 2):
+            out = self.run_scene({**SCENE, **own, **short}, ranks=ranks).out
+            for name in ("coefficient", "time"):
+                sentence = f"note: -friction_{name} acts nowhere: every region that touches the surface ('matrix', 'inclusion')"
+                self.assertEqual(out.count(sentence), 1, out)
+            out = self.run_scene({**SCENE, **FALLING, **short, "friction_kinetic": 0.6, "friction_inclusion_kinetic": 0.5},
+                                 ranks=ranks).out
+            # Two stripes of matrix of three edges, and the three nodes between two stripes.
+            self.assertEqual(out.count("-friction_kinetic is above -friction_coefficient, the static one, at 8 of 13 contact nodes"),
+                             1, out)
+        own = {"friction_matrix_coefficient": 0.4, "friction_matrix_time": 5e-7}
+        out = self.run_scene({**SCENE, **own, **FALLING, **short}).out
+        self.assertNotIn("acts nowhere", out)
+        self.assertNotIn("rises with", out)
+
     def test_the_shortest_memory_is_that_of_the_phase_that_has_it(self):
         """Remarks on a memory below the step, and below two edges, are those of one law with the shorter memory."""
         for short in (1e-9, 5e-8):

@@ -49,7 +49,9 @@ class Plan(unittest.TestCase):
         self.assertEqual(found["status"], "ok")
         before = self.pilots()
         self.assertGreaterEqual(len(before), 7)
-        done = subprocess.run([os.environ["SLIPSCALE_SLIDE"], "-options_file_yaml", "plan/scene.yaml"], cwd=self.folder,
+        command = said.partition("run it:  ")[2].splitlines()[0].split()
+        self.assertEqual(Path(command[0]).resolve(), Path(os.environ["SLIPSCALE_SLIDE"]).resolve())
+        done = subprocess.run(command, cwd=self.folder,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=200)
         self.assertEqual(done.returncode, 0, done.stdout)
         summary = yaml.safe_load((self.folder / "plan" / "run" / "summary.yaml").read_text())
@@ -83,6 +85,22 @@ class Plan(unittest.TestCase):
         said, _ = self.plan("--want", "fricton:1%", code=2)
         self.assertIn("is friction meant?", said)
         self.plan("--want", "friction:1%", "-friction_cofficient", "0.3", code=2)
+
+    def test_what_cannot_be_told_is_said_before_any_pilot(self):
+        (self.folder / "scene.yaml").write_text(SCENE.replace(", points: [2.5e-3, 0]", ""))
+        for wish, cure in (("friction:3%,stress_inclusion:5%", "no region inclusion, whose stress is wished for: the mesh has "
+                            "matrix"),
+                           ("velocity:3%", "name one, as -history_points")):
+            said, _ = self.plan("--want", wish, "--sizes", "0.5e-3", code=2)
+            self.assertIn(cure, said)
+            self.assertEqual(said.count("\n"), 1, said)
+            self.assertFalse(self.pilots())
+        for word, value in (("--sizes", "0"), ("--sizes", "nan"), ("--jobs", "0"), ("--cells", "squares"),
+                            ("--cells", "grid,grid")):
+            said, _ = self.plan("--want", "friction:3%", word, value, code=2)
+            self.assertRegex(said, rf"^slipscale plan: {word}: .*\n$")
+        said, _ = self.plan("--want", "friction:3%", "--sizes", "1", "-friction_law", "none", code=2)  # larger than the block
+        self.assertRegex(said, r"^slipscale plan: no(ne of the pilot meshes| mesh of) .*\n$")
 
 
 if __name__ == "__main__":

@@ -128,5 +128,44 @@ class OfASquareArrayOfDiscs(Relocalising):
                 self.assertGreater(order, 0.95)
 
 
+class AcrossASeam(Relocalising):
+    """Discs of a periodic cell, set so that the sides of a run cut two of three."""
+
+    PERIOD = 1e-3
+
+    def test_an_inclusion_is_whole_where_the_run_is_periodic(self):
+        self.draw({"block_width": self.PERIOD, "block_height": self.PERIOD, "periodic": "xy", "shape": "disc",
+                   "arrangement": "square", "columns": 1, "rows": 1, "fraction": 0.4, "size": self.PERIOD / 16,
+                   "cell": "triangle", "output_folder": "drawn"})
+        materials = {f"material_{region}_{name}": value for region, young in (("matrix", 30e9), ("inclusion", 80e9))
+                     for name, value in (("young", young), ("poisson", 0.3), ("density", 1))}
+        self.run_cell({"mesh_file": "drawn/mesh.msh", **materials, "cell_estimate_error": "false", "output_folder": "cell"})
+        points, cells = macro_grid(2 * self.PERIOD, self.PERIOD, 4, 2)
+        write_fields(self.folder / "homogeneous", points, cells, [0.0], [np.tile([1e-3, 2e-4, 5e-4], (len(cells), 1))])
+        run = {**FOLLOWED, "relocalize_origin": f"{self.PERIOD / 2},0"}
+        self.assertIn("interfaces of 3 inclusions", self.run_relocalize(run))
+        self.assertTrue(self.local(file="interfaces.h5")["outer"].any())
+        (self.folder / "homogeneous" / "run.yaml").write_text("run:\n  periodic: x\n")
+        for ranks in (1, 2):
+            self.run_relocalize(run, ranks=ranks)
+            found = self.local(file="interfaces.h5")
+            self.assertFalse(found["outer"].any())
+            area = found["inclusions/area"]
+            self.assertEqual(len(area), 2)
+            self.assertAlmostEqual(area[0] / area[1], 1, delta=1e-9)
+            self.assertAlmostEqual(area[0] / (0.4 * self.PERIOD**2), 1, delta=2e-2)
+            from_seam = np.remainder(found["inclusions/centre"][:, 0] + 1e-6, 2 * self.PERIOD)
+            np.testing.assert_allclose(np.sort(from_seam), [1e-6, self.PERIOD + 1e-6], rtol=0, atol=1e-9)
+            tractions = []
+            for k in (0, 1):
+                own = np.flatnonzero(found["inclusion"] == k)
+                own = own[np.argsort(np.remainder(found["angle"][own] + 0.01, 2 * np.pi))]
+                away = np.hypot(found["x"][own] - found["inclusions/centre"][k, 0], found["y"][own] - found["inclusions/centre"][k, 1])
+                self.assertLess(np.ptp(away), 1e-2 * self.PERIOD, "torn at the seam")
+                tractions.append(np.stack([found["normal_traction"][0, own], found["shear_traction"][0, own]]))
+            np.testing.assert_allclose(*tractions, rtol=0, atol=1e-7 * np.abs(tractions[0]).max())
+        self.run_relocalize({**run, "interfaces_region": "matrix"})
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -99,3 +99,24 @@ TEST(Hints, OutputsThatTakeMoreThanATenth) {
   dear.step.count = 2000;  // a moment
   EXPECT_TRUE(dear.hints().empty());
 }
+
+TEST(Hints, OutputsWithNothingBetweenStartAndEnd) {
+  Case seldom;
+  seldom.step.count = 500;
+  seldom.record.history.option = "history_interval";
+  seldom.record.contact.option = "contact_interval";
+  expect_only(
+      seldom.hints(),
+      "nothing between start and end is recorded in history.h5 (-history_every 1000 steps), contact.h5");
+  seldom.record.history = seldom.record.contact = {{}, 1e-6, "history_interval"};
+  EXPECT_TRUE(seldom.hints().empty());
+  seldom.record.interface_rows = {{}, 1.1e-5, "interfaces_interval"};  // 550 steps
+  expect_only(
+      seldom.hints(),
+      "recorded in interfaces.h5 (-interfaces_interval 1.1e-05 s), as the run has 500 steps to 1e-05 s");
+  seldom.record.interface_rows = {};
+  seldom.record.fields = {501, {}, "fields_interval"};
+  expect_only(seldom.hints(), "fields.h5 (-fields_every 501 steps)");
+  seldom.record.fields.every = 500;
+  EXPECT_TRUE(seldom.hints().empty());
+}

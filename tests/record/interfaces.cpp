@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "graded.hpp"
 #include "grids.hpp"
 #include "report.hpp"
 #include "scenes.hpp"
@@ -42,6 +43,7 @@ Scene shaken() {
 
 /// Σ m (a + a w − g) over all nodes of each inclusion, by its own cells.
 std::vector<Vector2> inertia(const SlidingBody& body, const RegionInclusions& found, int region) {
+  const Material& material = body.model().materials[region];
   const Mesh& mesh = body.model().mesh;
   const Scene& scene = body.scene();
   const double velocity = scene.beta2 * body.time_step();
@@ -60,7 +62,7 @@ std::vector<Vector2> inertia(const SlidingBody& body, const RegionInclusions& fo
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           if (nodes[k] >= mesh.nodes.owned) continue;
           const double a = body.acceleration_n()[nodes[k]][axis], v = body.velocity_n()[nodes[k]][axis];
-          terms.push_back(materials()[region].density * areas[k] *
+          terms.push_back(material.at(cell).density * areas[k] *
                           (a + scene.damping.mass * (v - velocity * a) - scene.body_acceleration[axis]));
         }
       }
@@ -159,4 +161,113 @@ TEST(InterfaceForces, OfAUniformStressAreExact) {
       EXPECT_NEAR(recovered[1], t[1] * n[0] - t[0] * n[1], 1e-10 * stress.norm());
     }
   }
+}
+
+/// The same of graded inclusions in a graded matrix, which takes the stiffness and the density of each cell.
+TEST(InterfaceForces, BalanceTheInertiaOfGradedInclusions) {
+  for (const Shape shape : {Shape::triangles, Shape::mixed}) {
+    const Mesh mesh = block_mesh(block(shape));
+    std::vector<Material> solids;
+    for (const Material& base : materials())
+      solids.push_back(graded(
+          mesh, base, [](const Vector2& x) { return 1 + 400 * x[0] + 200 * x[1]; },
+          [](const Vector2& x) { return 1 + 300 * x[1]; }));
+    const Model model(mesh, solids, Model::Storage::full);
+    Scene scene = shaken();
+    scene.damping = {2e5, 2e-9};
+    SlidingBody body(
+        PETSC_COMM_WORLD, model, scene,
+        0.8 * stable_step(largest_frequency(PETSC_COMM_WORLD, model).sharp, scene.beta2, scene.damping));
+    InterfaceRecord record(body, {"inclusion", {}});
+    for (int n = 0; n < 300; ++n) body.advance(false);
+    body.advance(true);
+    record.keep_past();
+    body.advance(true);
+    const auto forces = record.forces();
+    const auto found = find_inclusions(mesh, 1);
+    const auto expected = inertia(body, found, 1);
+    if (!is_root(PETSC_COMM_WORLD)) continue;
+    std::vector<Vector2> sums(2);
+    double flowed = 0;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      for (int axis = 0; axis < 2; ++axis)
+        sums[found.inclusions.interface[k].inclusion][axis] += forces[k][axis];
+      flowed += std::hypot(forces[k][0], forces[k][1]);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_GT(std::hypot(expected[k][0], expected[k][1]), 1e-4 * flowed) << "nothing to balance";
+      for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(sums[k][axis], expected[k][axis], 1e-11 * flowed);
+    }
+  }
+}
+
+/// t = σ n where every cell of a graded region happens to be alike, and not as its slowest one.
+TEST(InterfaceForces, AreOfTheCellsOfAGradedRegion) {
+  const Eigen::Vector3d strain{1e-4, -2e-4, 3e-4};
+  const Mesh mesh = block_mesh(block(Shape::mixed));
+  const Material base = scene_r_material();
+  const auto twice = [](const Vector2&) { return 2.0; };
+  const auto found = find_inclusions(mesh, 1);
+  const InterfaceForces forces(mesh, {base, graded(mesh, base, twice, twice)}, 1, found);
+  const Eigen::Vector3d stress = 2 * base.stiffness * strain;
+  std::vector<Vector2> u;
+  for (const Vector2& x : mesh.nodes.position)
+    u.push_back({strain[0] * x[0] + 0.5 * strain[2] * x[1], strain[1] * x[1] + 0.5 * strain[2] * x[0]});
+  for (std::size_t k = 0; k < forces.rows().size(); ++k) {
+    const InterfaceNode& node = found.inclusions.interface[forces.rows()[k]];
+    const Vector2& n = node.normal;
+    const double t[2] = {stress[0] * n[0] + stress[2] * n[1], stress[2] * n[0] + stress[1] * n[1]};
+    EXPECT_NEAR(tractions(node, forces.internal(k, u.data()))[0], t[0] * n[0] + t[1] * n[1],
+                1e-9 * stress.norm());
+  }
+}
+
+/// A step that was kept for another row than the next is as good as none: a restart may change the rows.
+TEST(InterfaceForces, TakeNoStepForTheOneBeforeThatIsNot) {
+  const Mesh mesh = block_mesh(block(Shape::triangles));
+  const Model model(mesh, materials(), Model::Storage::full);
+  Scene scene = shaken();
+  scene.damping = {0, 2e-9};
+  SlidingBody body(
+      PETSC_COMM_WORLD, model, scene,
+      0.8 * stable_step(largest_frequency(PETSC_COMM_WORLD, model).sharp, scene.beta2, scene.damping));
+  InterfaceRecord stale(body, {"inclusion", {}}), none(body, {"inclusion", {}});
+  for (int n = 0; n < 300; ++n) body.advance(n == 100);
+  stale.keep_past();
+  for (int n = 0; n < 5; ++n) body.advance(true);
+  const auto one = stale.forces(), other = none.forces();
+  EXPECT_EQ(one, other);
+}
+
+TEST(InterfaceChoice, DoubtsAMatrix) {
+  const Mesh mesh = block_mesh(block(Shape::triangles));
+  EXPECT_EQ(doubt_about("inclusion", find_inclusions(mesh, 1).inclusions), "");
+  EXPECT_NE(doubt_about("matrix", find_inclusions(mesh, 0).inclusions)
+                .find("-interfaces_region matrix: 1 of the 1 inclusions that it makes lies around"),
+            std::string::npos);
+}
+
+/// One node, rows without end: a peak where it is, and no more in the .xdmf than a reader can hold.
+TEST(InterfacesFile, OfOneNodeAndManyRows) {
+  const std::string folder = scratch("interfaces");
+  if (!is_root(PETSC_COMM_WORLD)) return;
+  Inclusions one;
+  one.centre = {{0, 0}};
+  one.area = {1};
+  one.outer = {0};
+  InterfaceNode node{0, 7, {1, 0}, {1, 0}, 2, 0, false};
+  one.interface = {node};
+  constexpr int rows = 10001;
+  InterfacesFile file(folder + ".h5", one, {"fibre", {}}, {""}, rows);
+  for (int n = 0; n < rows; ++n) file.write(n, {{{n == 5000 ? 6.0 : 2.0, -4}}});
+  EXPECT_EQ(file.headline().find(
+                "inclusion 0 is pulled hardest: 3 Pa at x = 1 m, y = 0 m (0.0 degrees), t = 5000 s"),
+            0u)
+      << file.headline();
+  EXPECT_EQ(file.peaks()[0][0].shear.value, 2);
+  const std::string shown = file.xdmf("interfaces.h5");
+  int times = 0;
+  for (auto at = shown.find("<Time"); at != std::string::npos; at = shown.find("<Time", at + 1)) ++times;
+  EXPECT_EQ(times, 5001);
+  file.series().close();
 }

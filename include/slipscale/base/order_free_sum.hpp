@@ -12,8 +12,8 @@ namespace slipscale {
 /// Sums that do not depend on the order of their terms, and so not on how these are spread over ranks: every
 /// term is cut, at places that the largest of all terms fixes, into three parts of so few bits that the sum
 /// of each part is exact (J. Demmel, H. D. Nguyen, "Parallel reproducible summation", IEEE Trans. Comput. 64
-/// (2015) 2060, with one more part). What lies below the third, 60 bits under the largest term at least, is
-/// left out.
+/// (2015) 2060, with one more part where terms are so many that two do not reach far). What lies below the
+/// last, 60 bits under the largest term at least, is left out.
 using CutSum = std::array<double, 3>;
 
 /// The largest size among the terms; infinite when one of them is not finite.

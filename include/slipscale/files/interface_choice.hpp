@@ -34,6 +34,8 @@ std::optional<InterfaceChoice> read_interfaces(const Options& options,
 /// The index of a region among those of a mesh. Throws UserError where there is none of that name, or no
 /// other beside it.
 int inclusions_region(const std::string& region, const std::vector<std::string>& regions);
+/// What is odd about what was found: inclusions that lie around other regions; a sentence, or nothing.
+std::string doubt_about(const std::string& region, const Inclusions& inclusions);
 /// Throws UserError where no interface was found.
 void refuse_no_interface(const std::string& region, const Inclusions& inclusions);
 

@@ -52,9 +52,10 @@ class InterfacesFile {
   /// The text of interfaces.yaml.
   std::string report() const;
   /// One line on what debonds first, or comes nearest to it, or is pulled hardest; of the first recovery.
+  /// Ends with the number of rows where they are few, for what happens between rows is not seen.
   std::string headline() const;
-  /// The text of interfaces.xdmf: the nodes as points, with the tractions at every row. `name`: of the HDF5
-  /// file.
+  /// The text of interfaces.xdmf: the nodes as points, with the tractions at every row, of more than ten
+  /// thousand at every second, third … `name`: of the HDF5 file.
   std::string xdmf(const std::string& name);
 
  private:
@@ -67,6 +68,7 @@ class InterfacesFile {
   void merge(std::size_t v, double time, const std::array<std::vector<double>, 3>& highest,
              const std::array<std::vector<double>, 3>& at);
   std::string place_of(const InterfacePeak& peak) const;
+  std::string finding() const;
 
   SeriesFile file_;
   const Inclusions inclusions_;

@@ -18,7 +18,8 @@ OutputCosts output_costs(double nodes, double contact_nodes);
 
 /// What a scene pays for without using it, one sentence each, for the terminal: a material that is given
 /// twice, damping that changes nothing, outputs that take more than a tenth of the run, a step far below the
-/// limit, a friction memory that the contact's edges are too long for. Collective; the same on every rank.
+/// limit, a friction memory that the contact's edges are too long for, outputs with no row between start and
+/// end. Collective; the same on every rank.
 std::vector<std::string> hints_at_start(const SlidingBody& body, const TimeStep& step,
                                         const RecordChoice& record);
 

@@ -46,7 +46,8 @@ struct CheckpointChoice {
 /// What the user wants to keep of a run.
 struct RecordChoice {
   std::string folder;
-  Cadence history, contact;   ///< contact.h5 has about a thousand rows when nothing is given
+  Cadence history, contact;   ///< when nothing is given, contact.h5 has about a thousand rows, in a short run
+                              ///< one in 25 steps
   bool contact_sums = false;  ///< whether it has sums over every step
   std::optional<InterfaceChoice> interfaces;
   Cadence interface_rows;       ///< about a thousand when nothing is given

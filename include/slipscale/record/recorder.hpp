@@ -8,6 +8,7 @@
 
 #include "slipscale/files/output_folder.hpp"
 #include "slipscale/files/progress.hpp"
+#include "slipscale/record/cell_values.hpp"
 #include "slipscale/record/checkpoint.hpp"
 #include "slipscale/record/content_marks.hpp"
 #include "slipscale/record/fields_file.hpp"
@@ -85,6 +86,7 @@ class Recorder {
   std::vector<SeriesFile*> all_series() const;  ///< on rank 0
   std::string cadences() const;                 ///< for the forecast
   void check(const Observation& seen) const;
+  double note_residual(const Energy& energy);
   [[noreturn]] void stop(const std::string& fault, const std::string& cure) const;
   void share_faults();
 
@@ -116,9 +118,7 @@ class Recorder {
   std::string interfaces_headline_;                  ///< at the end
   std::unique_ptr<FieldsFile> fields_;
   std::unique_ptr<StressStatistics> statistics_;
-  const std::vector<Eigen::Matrix3d> compliance_;       ///< [regions], 1/Pa
-  std::vector<std::array<double, 3>> stress_, strain_;  ///< [local cells]
-  std::vector<double> damping_;                         ///< [local cells], J/m³
+  CellValues cells_;
   Progress progress_;
   std::vector<Observation> rows_;           ///< rank 0: what the summary needs, contact nodes left out
   long last_sound_ = -1, last_frame_ = -1;  ///< steps whose record, and whose frame, were written

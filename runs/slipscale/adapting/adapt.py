@@ -38,9 +38,9 @@ from slipscale.adapting.mode_trials import ModeTrials, compared as modes_compare
 from slipscale.adapting.trials import Trials, changed, compared, options_of, spelled_out, value_of
 from slipscale.measuring.regime import friction_spectrum, measures
 from slipscale.measuring.surface_motion import surface_motion
-from slipscale.measuring.window import default_window
-from slipscale.parser import Parser
-from slipscale.reading import History, UnreadableRun
+from slipscale.measuring.window import cut_away, default_window, unfinished
+from slipscale.parser import Parser, Window
+from slipscale.reading import History, Summary, UnreadableRun
 from slipscale.reading.yaml_file import load
 from slipscale.running import programs
 from slipscale.running.attempt import number_or_text, write_whole
@@ -62,8 +62,10 @@ class Failure(Exception):
 class Adaptation:
     def __init__(self, heterogeneous, homogeneous, asked):
         self.asked, self.folders = asked, {"heterogeneous": heterogeneous, "homogeneous": homogeneous}
-        self.window = tuple(asked.window or default_window(
-            min((History(folder).time for folder in self.folders.values()), key=lambda time: time[-1])))
+        times = {name: History(folder).time for name, folder in self.folders.items()}
+        self.window = tuple(asked.window or default_window(min(times.values(), key=lambda time: time[-1])))
+        self.notes = [f"the {name} run: {note}" for name, time in times.items() for note in
+                      (cut_away(time, self.window), unfinished(Summary(self.folders[name]), time[-1])) if note]
         spectrum = friction_spectrum(heterogeneous, self.window)
         self.target = measures(heterogeneous, self.window)
         self.own = {"folder": str(homogeneous), **compared(homogeneous, self.window, spectrum)}
@@ -201,7 +203,7 @@ class Adaptation:
         value_nearest = nearest and nearest.get(self.asked.parameter, self.start)
         good = [name for name, found in levels.items() if found["status"] == "ok"]
         best = min(good, key=lambda name: levels[name]["after"]["spectrum_distance"], default=None)
-        return {"parameter": self.asked.parameter, "set": self.asked.set, "window": list(self.window),
+        return {"parameter": self.asked.parameter, "set": self.asked.set, "window": list(self.window), "notes": self.notes,
                 "start": self.start, "heterogeneous": self.target, "homogeneous": self.own,
                 "before": self.distances(self.own), "levels": levels,
                 "nearest": nearest and {"value": value_nearest, **self.distances(nearest)},
@@ -260,7 +262,7 @@ def parsed(arguments):
     parser.add_argument("--program", help="words before the options, as 'mpirun -n 2 …' (default: the slide beside "
                                           "this command)")
     parser.add_argument("--match", choices=tuple(MATCHES))
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="s; default: the second half")
+    parser.add_argument("--window", action=Window, metavar=("FROM", "TO"), help="s; default: the second half")
     parser.add_argument("--parameter", default="friction_time", help="option of slide that is adapted")
     parser.add_argument("--set", nargs="+", default=[], metavar="OPTION=VALUE", help="other changes to the model")
     parser.add_argument("--start", type=float, help="middle of the scan; default: what the homogeneous run has")
@@ -289,6 +291,8 @@ def main(arguments=None):
     Path(asked.output).mkdir(parents=True, exist_ok=True)
     write_whole(Path(asked.output) / "adapt.yaml", yaml.safe_dump(plain(found), sort_keys=False, width=1000,
                                                                   allow_unicode=True))
+    for note in found["notes"]:
+        print(f"note: {note}")
     for name, level in found["levels"].items():
         print(f"{name}: " + (level["reason"] or f"{asked.parameter} {level['value']:.6g}, distance of the spectrum "
               f"{found['before']['spectrum_distance']:.3g} -> {level['after']['spectrum_distance']:.3g}"))

@@ -8,7 +8,7 @@ import numpy as np
 from slipscale.measuring import distance, spectrum
 from slipscale.measuring.averages import ROUNDING_OF_SUMS, Settling, mean_of, ratio_of_means, settling
 from slipscale.measuring.regime import HIGHEST, STILL, friction_signal, regime
-from slipscale.measuring.window import choose_window, default_window, rows_in
+from slipscale.measuring.window import choose_window, cut_away, default_window, rows_in, unfinished
 from slipscale.reading import History, Summary, UnreadableRun
 
 DOUBT = 3  # standard errors of the difference, from which on two means differ
@@ -21,7 +21,7 @@ UNITS = {"friction": "1", "normal_force": "N/m", "tangential_force": "N/m", "sti
 class Compared:
     """A run over `window` (s). means[name] are pairs of value and standard error, names and units those of UNITS, of
     what was recorded; spectrum, frequency [n] Hz and √density [n] 1/√Hz of friction; portrait, u [n] m and v [n] m/s of
-    the probe point, or None; options as run.yaml has them."""
+    the probe point, or None; options as run.yaml has them; notes: sentences on the window and on the run's end."""
 
     name: str
     folder: Path
@@ -37,6 +37,7 @@ class Compared:
     own_portraits: list
     reached: float
     options: dict = field(default_factory=dict)
+    notes: tuple = ()
 
 
 def spectrum_of(time, signal):
@@ -59,6 +60,7 @@ def halves(rows):
 def read_compared(folder, window, point=0, name=None):
     """The Compared of a folder of `slide`. Raises UnreadableRun."""
     history, summary = History(folder), Summary(folder)
+    notes = (cut_away(history.time, window) if window else "", unfinished(summary, history.time[-1]))
     window = choose_window(history.time, window)
     rows = rows_in(history.time, window)
     boundary = summary.measured_boundary(history)
@@ -84,7 +86,8 @@ def read_compared(folder, window, point=0, name=None):
         whole, [spectrum_of(history.time[half], friction_signal(history, boundary, half)) for half in halves(rows)],
         None if u is None else (u[rows, 0], v[rows, 0]),
         [] if u is None else [(u[half, 0], v[half, 0]) for half in halves(rows)], float(history.time[-1]),
-        {option: value for option, value in summary.options.items() if option not in ("run", "output_folder")})
+        {option: value for option, value in summary.options.items() if option not in ("run", "output_folder")},
+        tuple(filter(None, notes)))
 
 
 @dataclass

@@ -11,7 +11,7 @@ import numpy as np
 
 from slipscale.measuring import spectrum
 from slipscale.measuring.averages import mean_of, ratio_of_means, settling
-from slipscale.measuring.window import FEWEST_ROWS, rows_in, too_few
+from slipscale.measuring.window import FEWEST_ROWS, backwards, rows_in, too_few
 from slipscale.reading import History, Summary, UnreadableRun
 
 HIGHEST = 2e6  # Hz, up to which spectra are compared
@@ -51,6 +51,8 @@ MEASURES = {  # name: (unit, what it is)
 def rows_of(history, window, fewest=FEWEST_ROWS):
     """The rows in the window (two times in s). Raises UnreadableRun when they are fewer than `fewest`, by default too
     few for a spectrum."""
+    if wrong := backwards(window):
+        raise UnreadableRun(f"The window {wrong}.")
     rows = rows_in(history.time, window)
     if rows.stop - rows.start < fewest:
         raise UnreadableRun(too_few(history.time, window, fewest))

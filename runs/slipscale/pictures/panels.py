@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from slipscale.measuring import spectrum
 from slipscale.measuring.averages import ratio_of_means, with_error
+from slipscale.measuring.regime import STILL
 from slipscale.measuring.window import MICRO, in_words, rows_in
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from slipscale.pictures.drawing import colours_for, draw_cells
@@ -34,7 +35,6 @@ ENERGY_TERMS = {  # term: (what the legend calls it, colour, line style)
 }
 NO_LINE = ("residual", "flowed")
 FAR = 20  # times the fastest motion: the surface's speed beyond it would leave nothing to be seen of the portrait
-ROUNDING = 1e-10  # relative: what varies less does not vary
 
 
 def phase_portrait(axes, figure, history, point, window, surface_speed):
@@ -110,7 +110,7 @@ def friction_spectrum(axes, history, boundary, window, highest=2e6):
     """
     rows = rows_in(history.time, window)
     values, name = friction_signal(history, boundary, rows)
-    if not np.ptp(values) > ROUNDING * np.abs(values).max():
+    if not np.ptp(values) > STILL:
         say(axes, "(c) Spectrum of the friction", f"{name} does not vary in the window.")
         return None
     values, rate = spectrum.evenly_spaced(history.time[rows], values)

@@ -11,8 +11,8 @@ import numpy as np
 
 from slipscale.measuring.averages import mean_of, ratio_of_means, settling, with_error
 from slipscale.measuring.regime import friction_signal, measures
-from slipscale.measuring.window import MICRO, choose_window, rows_in
-from slipscale.parser import Parser
+from slipscale.measuring.window import choose_window, cut_away, how_far, rows_in
+from slipscale.parser import Parser, Window
 from slipscale.pictures import panels
 from slipscale.pictures.drawing import plt, shown, write_picture
 from slipscale.reading import ContactHistory, Fields, History, Summary, UnreadableRun
@@ -24,6 +24,7 @@ LONGEST = 140  # characters of a line above the panels
 def draw(folder, window=None, point=0):
     """The figure of the run in `folder`; `window` is a pair of times in s. Raises UnreadableRun."""
     history, summary = History(folder), Summary(folder)
+    beyond = cut_away(history.time, window) if window else ""
     window = choose_window(history.time, window)
     boundary = summary.measured_boundary(history)
     figure, axes = plt.subplots(2, 3, figsize=(16, 10), layout="constrained")
@@ -49,17 +50,14 @@ def draw(folder, window=None, point=0):
     except (UnreadableRun, OSError) as error:
         panels.say(axes[1, 1], "(e) Stress", str(error))
     panels.energy_ledger(axes[1, 2], history)
-    figure.suptitle(headline(folder, history, summary, boundary, window, dominant), fontsize="large", fontweight="bold")
+    figure.suptitle(headline(folder, history, summary, boundary, window, dominant, beyond), fontsize="large", fontweight="bold")
     return figure
 
 
-def headline(folder, history, summary, boundary, window, dominant):
-    """A few lines: the folder and how far the run got; the numbers a reader compares."""
+def headline(folder, history, summary, boundary, window, dominant, beyond=""):
+    """A few lines: the folder and how far the run got; the numbers a reader compares; what is `beyond` what was
+    recorded."""
     rows = rows_in(history.time, window)
-    planned, reached = summary.number("time_end"), history.time[-1]
-    state = f"{reached * MICRO:.4g} µs"
-    if planned is not None and reached < 0.999 * planned:
-        state += f" of {planned * MICRO:.4g} µs: still running, or stopped early"
     normal, tangential = (history.boundary[boundary][f"{force}_force"][rows] for force in ("normal", "tangential"))
     numbers = [f"mean T / mean N = {with_error(*ratio_of_means(tangential, normal))}"
                if np.mean(normal) > 0 else "no load",
@@ -74,7 +72,7 @@ def headline(folder, history, summary, boundary, window, dominant):
     residual = panels.relative_residual(history)
     if residual is not None:
         numbers.append(f"energy residual {residual:.0e}")
-    lines = [f"{shown(folder)}: {state}", *joined(numbers)]
+    lines = [f"{shown(folder)}: {how_far(summary, history.time[-1])}", *joined(numbers), *([beyond] if beyond else [])]
     if dominant is not None and (doubt := summary.headline.get("aliases")):
         lines += textwrap.wrap(str(doubt), LONGEST)[:2]
     return "\n".join(lines)
@@ -92,7 +90,7 @@ def joined(parts):
 def main(arguments=None):
     parser = Parser("picture", __doc__)
     parser.add_argument("folder", help="output folder of a slide run")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("BEGIN", "END"),
+    parser.add_argument("--window", action=Window, metavar=("BEGIN", "END"),
                         help="times [s] for means and spectra (default: the second half of the run)")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portrait (default 0)")
     return write_picture(parser, lambda options: draw(options.folder, options.window, options.point), arguments)

@@ -11,9 +11,9 @@ from slipscale.adapting.trials import SELDOM
 from slipscale.mistakes import Mistake
 from slipscale.planning import costs, pilots
 from slipscale.planning.case import OUTPUTS
-from slipscale.planning.errors import LEVEL
 from slipscale.planning.picture import draw
 from slipscale.planning.proposal import LONGEST
+from slipscale.planning.said import DISK_SPREAD, MEMORY_SPREAD, command_of, end_of, percent, said_of, text_of
 from slipscale.reading import History, Summary
 from slipscale.running.attempt import write_whole
 from slipscale.running.commands import word
@@ -22,7 +22,6 @@ TRIED = 0.01  # of the steps of the run, twice and four times that: what its sec
 LEAST_TRIED = 0.3  # s
 KNOWN_AS_WELL = 0.15  # relative: seconds of a run that was tried for a moment, on a machine with nothing else to do
 WORTH_SINGLE = 0.9  # of the seconds: single storage that saves less is not proposed
-DISK_SPREAD, MEMORY_SPREAD = 0.3, 0.15
 
 
 @dataclass
@@ -66,13 +65,15 @@ def tried(planning, options, steps, storage, folder):
 
 
 def per_step(planning, options, steps, storage):
-    """(start s, s a step, the longer outcome): from two short runs."""
+    """(start s, s a step, the longer outcome and its folder): from two short runs, by the steps that they took, whose step
+    is not quite the expected one."""
     folders = [planning.out / "pilots" / "tried" / f"{storage}-{count}" for count in (steps, 4 * steps)]
     outcomes = [tried(planning, options, count, storage, folder) for count, folder in zip((steps, 4 * steps), folders)]
     if failed := next((one for one in outcomes if one["status"] != "ok"), None):
         raise Mistake(f"the proposed run does not start: {failed['reason']}")
-    slope = max(1e-9, (outcomes[1]["cpu_seconds"] - outcomes[0]["cpu_seconds"]) / (3 * steps))
-    return max(0.0, outcomes[0]["cpu_seconds"] - steps * slope), slope, outcomes[1], folders[1]
+    few, many = (int(Summary(folder).headline["steps"]) for folder in folders)
+    slope = max(1e-9, (outcomes[1]["cpu_seconds"] - outcomes[0]["cpu_seconds"]) / (many - few))
+    return max(0.0, outcomes[0]["cpu_seconds"] - few * slope), slope, outcomes[1], folders[1]
 
 
 def proposal_of(planning):
@@ -106,76 +107,6 @@ def proposal_of(planning):
                     options["history_interval"], disk, storage, single)
 
 
-# --- what is said of a result
-
-
-def percent(value):
-    return f"{100 * value:.2g} %"
-
-
-def said_of(planning, wish):
-    """A line, and a dict for plan.yaml."""
-    best, found = planning.best, planning.results[wish.name]
-    fit, number = found.fit, best.number
-    mean, deviation = fit.expected(best.h, best.step, number)
-    order, constant = fit.order_of(number), fit.constant_of(number)
-    told = {"wish": wish.allowed(found.size), "promised": fit.bound(best.h, best.step, number, best.windows),
-            "level": LEVEL, "mesh_and_step": mean, "mesh_and_step_deviation": deviation,
-            "scatter_in_time": fit.time_scatter(best.windows), "order": order[0], "order_deviation": order[1],
-            "coarsest_mesh": constant[0], "coarsest_mesh_deviation": constant[1],
-            "limit": float(fit.limit.mean()) if fit.limit.any() else None,
-            "limit_deviation": float(fit.limit.std()) if fit.limit.any() else None}
-    line = (f"  {wish.name}: within {percent(told['promised'])} (wished {percent(told['wish'])}); mesh and step "
-            f"{100 * mean:+.2g} ± {100 * deviation:.2g} %, over time ± {percent(told['scatter_in_time'])}; order "
-            f"{order[0]:.2g} ± {order[1]:.2g}, coarsest mesh {100 * constant[0]:+.2g} ± {100 * constant[1]:.2g} %")
-    if found.morphology:
-        between = found.morphology[0]
-        seeds = max(1, math.ceil((1.96 * between / told["wish"])**2))
-        told.update(between_morphologies=between, between_morphologies_deviation=found.morphology[1],
-                    morphologies_for_the_mean=seeds)
-        line += (f"\n    between morphologies ± {percent(between)}: " +
-                 (f"their mean to {percent(told['wish'])} takes {seeds} of them" if seeds > 1 else
-                  "one stands for the composite"))
-    return line, told
-
-
-def size_in_words(number, unit):
-    for factor, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if number >= factor:
-            return f"{number / factor:.3g} {name}{unit}"
-    return f"{number:.3g} {unit}"
-
-
-def text_of(planning, found, seconds):
-    """The answer as text."""
-    best, case = planning.best, planning.case
-    lines = ["", f"{best.cell} cells of {1e6 * best.h:.4g} µm, {found.mesh.nodes} nodes; step {1e9 * found.step:.4g} ns, "
-             f"{best.safety:g} of the limit; storage {found.storage}; window {1e6 * case.window[0]:.4g} to "
-             f"{1e6 * end_of(planning):.4g} µs, {best.windows:g} times the scene's",
-             f"{size_in_words(found.node_steps, 'node-steps')} in {found.steps} steps: {found.seconds:.3g} ± "
-             f"{found.spread * found.seconds:.2g} s of one core, {size_in_words(found.memory, 'B')} ± "
-             f"{100 * MEMORY_SPREAD:.0f} % of memory, {size_in_words(found.disk, 'B')} ± {100 * DISK_SPREAD:.0f} % of disk",
-             "errors, in nineteen of twenty cases:"]
-    lines += [said_of(planning, wish)[0] for wish in planning.wishes]
-    if planning.asked.want and not planning.kept_all:
-        lines.append(f"The budget of {planning.budget:g} s does not buy all that is wished for; this comes nearest.")
-    if found.single:
-        lines.append(f"single storage takes {found.single:.2f} of the seconds" +
-                     ("" if found.storage == "single" else ": not worth it") + ".")
-    if planning.passed_over:
-        lines.append("passed over, another regime than on finer meshes: " +
-                     ", ".join(pilot.name for pilot in planning.passed_over))
-    lines += [f"left out: {what}" for what in planning.left_out]
-    lines += [f"pilot runs took {planning.spent:.3g} s of one core, announced {planning.announced:.3g}; all in "
-              f"{seconds:.0f} s", "", f"run it:  slide -options_file_yaml {planning.out / 'scene.yaml'}",
-              f"all of this: {planning.out / 'plan.yaml'}, {planning.out / 'plan.png'}"]
-    return "\n".join(lines)
-
-
-def end_of(planning):
-    return planning.case.scene_of(planning.best.windows)["time_end"]
-
-
 def rows_of_pilots(planning):
     return [{"role": pilot.role, "cell": pilot.cell, "size": pilot.h, "safety": pilot.safety, "seed": pilot.seed,
              "nodes": pilot.mesh.nodes, "step": pilot.step, "seconds": pilot.cost, "settled": bool(pilot.settled),
@@ -202,7 +133,7 @@ def write(planning, seconds):
     scene.update(stiffness_storage=found.storage, output_folder=str(planning.out / "run"))
     window = (planning.case.window[0], end_of(planning))
     head = (f"# Proposed by slipscale plan: {', '.join(map(str, planning.wishes))}. From where the plan was made:\n"
-            f"#   slide -options_file_yaml {planning.out / 'scene.yaml'}\n"
+            f"#   {command_of(planning)}\n"
             f"# Averages belong to {window[0]:g} to {window[1]:g} s.\n")
     write_whole(planning.out / "scene.yaml", head + "".join(
         f"{name}: {value if isinstance(value, str) else number(value)}\n" for name, value in sorted(scene.items())))

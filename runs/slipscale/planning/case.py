@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from slipscale.measuring.window import backwards
 from slipscale.mistakes import Mistake
 from slipscale.planning.costs import damped
 from slipscale.reading import yaml_file
@@ -14,7 +15,9 @@ SAFETY = 0.9  # of slide
 HISTORY_ROWS = 8000  # of a run whose scene counts rows in steps
 LONGER_STEP = 1.3  # than expected from the largest element: at most, between rows of the history
 ACROSS_HEIGHT, ACROSS_FEATURE, ACROSS_MEMORY = 10, 2.5, 2  # cells, at least: c_s T over 2 cells, or a spurious mode grows
+GAP = 0.15  # of the smallest inclusion: between inclusions, of a recipe that gives neither gaps nor a size that they follow
 SEPARATE = ("history_every", "time_step", "mesh_file", "mesh_refine", "output_folder", "progress")
+GAPS = ("gap", "clearance")
 OUTPUTS = ("fields_", "statistics_", "contact_", "checkpoint_")
 
 
@@ -45,8 +48,8 @@ def speeds(options):
                 stiffness = [0, 0, 2 * shear * (1 - poisson) / (1 - 2 * poisson), shear]
             found[region] = math.sqrt(stiffness[2] / float(density)), math.sqrt(stiffness[3] / float(density))
         except (KeyError, TypeError, ValueError, IndexError) as error:
-            raise Mistake(f"the scene does not say young, poisson and density of {region}, its stiffness, or a "
-                          "file of them") from error
+            raise Mistake(f"the scene does not say, in numbers, young, poisson and density of {region}, its stiffness, "
+                          "or a file of them") from error
     if not found:
         raise Mistake("the scene names no material: give material: {all: {young, poisson, density}}")
     return found
@@ -100,18 +103,28 @@ class Case:
 
     def longest_size(self):
         """The coarsest cells that show what there is, m, and what demands them."""
-        height, width = (float(self.recipe[f"block_{side}"]) for side in ("height", "width"))
+        height, width = (number(self.recipe, f"block_{side}") for side in ("height", "width"))
         found = [(min(height, width) / ACROSS_HEIGHT, f"{ACROSS_HEIGHT} cells across the block")]
-        for name, value in self.recipe.items():
-            if name == "diameter" or name.endswith("_diameter"):
-                found.append((float(value) / float(self.recipe.get("aspect", 1)) / ACROSS_FEATURE,
-                              f"{ACROSS_FEATURE:g} cells across an inclusion"))
+        if feature := self.feature():
+            found.append((feature / ACROSS_FEATURE, f"{ACROSS_FEATURE:g} cells across an inclusion"))
         if "layer_period" in self.recipe:
             found.append((0.5 * float(self.recipe["layer_period"]) / ACROSS_FEATURE,
                           f"{ACROSS_FEATURE:g} cells across a layer"))
         if self.memory:
             found.append((self.memory_size(), "friction's memory, c_s T over two cells"))
         return min(found)
+
+    def feature(self):
+        """The smallest inclusion, across it, m; None without any."""
+        return min((number(self.recipe, name) / float(self.recipe.get("aspect", 1)) for name in self.recipe
+                    if name == "diameter" or name.endswith("_diameter")), default=None)
+
+    def gap(self):
+        """What gaps are that the recipe leaves open, m: they would follow the size, and every size have a drawing of its
+        own. None where nothing is open."""
+        if not self.is_random or all(str(self.recipe.get(name, "auto")) != "auto" for name in GAPS):
+            return None
+        return float(self.recipe["size"]) if "size" in self.recipe else GAP * self.feature() if self.feature() else None
 
     def memory_size(self):
         """The largest cells of which c_s T spans two, m."""
@@ -130,10 +143,8 @@ class Case:
         found.update(cell=cell, size=float(f"{size:.9g}"))
         if seed is not None:
             found["seed"] = seed
-        if self.is_random:  # by default they follow the size, and every size would have a drawing of its own
-            for name in ("gap", "clearance"):
-                if str(found.get(name, "auto")) == "auto":
-                    found[name] = own
+        if gap := self.gap():
+            found.update({name: gap for name in GAPS if str(found.get(name, "auto")) == "auto"})
         return found
 
     def scene_of(self, windows=1.0, interval=None):
@@ -174,20 +185,28 @@ def memory_of(scene):
     return float(scene["friction_length"]) / speed if speed > 0 else math.inf
 
 
+def number(options, name):
+    """An option as a float. Raises Mistake."""
+    try:
+        return float(options[name])
+    except (TypeError, ValueError) as error:
+        raise Mistake(f"{name} is {options[name]!r}, and plan needs a number there") from error
+
+
 def case_of(scene, recipe, window=None, before=None, cells=None):
     """The Case of flat options. Raises Mistake."""
     for name in ("block_width", "block_height"):
         if name not in recipe:
             raise Mistake(f"the recipe has no {name}, without which no mesh can be drawn at several sizes")
-    try:
-        end = float(scene["time_end"])
-    except (KeyError, ValueError) as error:
-        raise Mistake("the scene has no time_end, from which the window of averages is taken") from error
+    if "time_end" not in scene:
+        raise Mistake("the scene has no time_end, from which the window of averages is taken")
+    end = number(scene, "time_end")
     window = tuple(window or (0.5 * end, end))
-    if not 0 <= window[0] < window[1]:
-        raise Mistake(f"the window {window[0]:g} to {window[1]:g} s is none")
-    if before and not 0 <= before[0] < before[1]:
-        raise Mistake(f"--before {before[0]:g} {before[1]:g} is no window")
+    for name, asked in (("--window", window), ("--before", before)):
+        if asked and (wrong := backwards(asked)):
+            raise Mistake(f"{name} {wrong}")
+        if asked and asked[0] < 0:
+            raise Mistake(f"{name} begins at {asked[0]:g} s, before the run")
     if recipe.get("shape") == "image":
         cells = ["grid"]
     return Case(scene, recipe, window, tuple(before) if before else None, cells or ["grid", "triangle"], speeds(scene))
@@ -199,7 +218,8 @@ def with_stress(options, regions, window, strip=False):
     if not regions:
         return options
     kept = {name: value for name, value in options.items() if not name.startswith("fields_")}
-    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"), "fields_quantities": "stress" if strip else "von_mises"}
+    return {**kept, "fields_interval": float(f"{(window[1] - window[0]) / 100:.6g}"),
+            "fields_quantities": "stress" if strip else "von_mises"}
 
 
 def found_files(options, folder):

@@ -10,7 +10,7 @@ PER_STEP = 1.5e-6  # s of a step, whatever the mesh
 START = 0.2  # s
 HISTORY_ROW, CONTACT_ROW = 400, 68  # B of a row of history.h5, and of one of contact.h5 for each contact node
 CONTACT_SUMS = 56  # B more with the sums over every step
-CONTACT_ROWS = 1000  # of contact_every auto
+CONTACT_ROWS, CONTACT_EVERY = 1000, 25  # of contact_every auto: at most so many rows, and steps between them at least
 CHECKPOINT = 330  # B of a node
 FRAME = {"u": 24, "v": 24, "stress": 36, "strain": 36, "von_mises": 12, "principal": 24,
          "damping_work": 12}  # B of a node, cells being 1.5
@@ -71,7 +71,7 @@ def contact_rows(options, end, step):
     if "contact_interval" in options:
         return end / float(options["contact_interval"])
     every = options.get("contact_every", "auto")
-    return CONTACT_ROWS if every == "auto" else end / step / float(every)
+    return min(CONTACT_ROWS, end / step / CONTACT_EVERY) if every == "auto" else end / step / float(every)
 
 
 def disk(options, nodes, contact_nodes, end, step, row=HISTORY_ROW):

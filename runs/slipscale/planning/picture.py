@@ -1,7 +1,7 @@
 """Error over cost: what the pilots gave, what any price buys, what is proposed, the wish and the budget."""
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from slipscale.pictures.colours import BLACK, BLUE, GREEN, ORANGE, VERMILION
 from slipscale.pictures.drawing import plt
@@ -34,7 +34,7 @@ def panel(axes, planning, proposal, wish):
                       color=COLOURS.get(cell, BLACK), label=f"pilots, {cell}", capsize=2)
     most = max(10 * proposal.seconds, planning.budget or 0)
     axes.plot(*(part * scale for part, scale in zip(planning.search.front(wish.name, most), (1, 100))), color=GREEN,
-              label="best of each price: bound")
+              label="best of each price for this result alone: bound")
     mean, deviation = result.fit.expected(best.h, best.step, best.number)
     axes.plot(proposal.seconds, 100 * best.bounds[wish.name], "*", color=VERMILION, markersize=15, label="proposed: bound")
     axes.plot(proposal.seconds, max(100 * LEAST, 100 * abs(mean)), "_", color=VERMILION, markersize=14,
@@ -44,7 +44,10 @@ def panel(axes, planning, proposal, wish):
         axes.axvline(planning.budget, color=BLACK, linestyle=":", linewidth=1, label="budget")
     axes.set(xscale="log", yscale="log", xlabel="seconds of one core", ylabel="error [%]",
              title=f"{wish.name.replace('_', ' ')}\nits mesh and step: {100 * mean:+.2g} ± {100 * deviation:.2g} %")
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
     axes.grid(True, which="major", alpha=0.3)
 
 

@@ -85,7 +85,7 @@ class Workshop:
         if folder in self.meshes:
             return self.meshes[folder]
         command = [str(programs.program("morphology")), *shlex.split(words({**recipe, "output_folder": folder}))]
-        outcome = Trials.outcome(folder, command) or attempt(folder / "outcome.yaml", command)
+        outcome = kept(folder, command) or attempt(folder / "outcome.yaml", command)
         if outcome["status"] != "ok":
             self.meshes[folder] = Mesh(folder, reason=outcome["reason"])
             return self.meshes[folder]
@@ -165,6 +165,13 @@ class Workshop:
         return found
 
 
+def kept(folder, command):
+    """The outcome of the same command before, if it was a good one: what failed may have done so for a cause that is
+    gone."""
+    known = Trials.outcome(folder, command)
+    return known if known and known["status"] == "ok" else None
+
+
 def newer(mesh, outcome):
     """Whether a mesh was drawn after a run ended: the run was that of another one."""
     drawn = Path(mesh).parent / "outcome.yaml"
@@ -175,7 +182,7 @@ def started(options, folder):
     """The outcome of `slide` with these options: of the same command on the same mesh before, or by a process that
     measures it alone."""
     command = [str(programs.program("slide")), *shlex.split(words(options))]
-    known = Trials.outcome(folder, command)
+    known = kept(folder, command)
     if known and not newer(options["mesh_file"], folder / "outcome.yaml"):
         return known
     folder.mkdir(parents=True, exist_ok=True)

@@ -23,15 +23,13 @@ import time
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
-from slipscale.parser import Parser
-from slipscale.planning import answer, pilots, refusals, results
+from slipscale.planning import answer, demands, pilots, refusals, results
+from slipscale.planning.asked import parsed, with_changes
 from slipscale.planning.case import case_of, options_of
 from slipscale.planning.costs import fitted_price, undamped
 from slipscale.planning.proposal import LONGEST, Search, scaling_of
 from slipscale.planning.wishes import Wish, seconds_of, wishes_of
 from slipscale.running import programs
-from slipscale.running.sweep import owner, values_of
-from slipscale.running.sweep_command import paired
 from slipscale.running.sweep_plan import manuals_of
 
 FIRST = 6.0  # s: what the first pilots take, a tenth of a minute
@@ -70,6 +68,12 @@ class Planning:
         if reason := refusals.of_law(case):
             raise Refused(reason)
         top, demanded = case.longest_size()
+        if (gap := case.gap()) and "size" not in case.recipe:
+            self.say(f"the recipe leaves gap or clearance open, and gives no size that they follow: {gap:.3g} m at all "
+                     "sizes")
+        if self.workshop.regions:
+            _, drawn = pilots.coarsest_drawn(self.workshop, self.asked.sizes or top)
+            demands.of_regions(self.wishes, demands.regions_of(next(iter(drawn.values())).folder))
         if given := self.asked.sizes:
             if reason := refusals.of_memory(case, 0, most, top, given):
                 raise Refused(reason)
@@ -83,6 +87,11 @@ class Planning:
                               f"{demanded} ask for cells of {1e6 * coarsest:.3g} µm. More time for them helps, --pilots "
                               f"{1.2 * price / 60:.3g}min, or a shorter run, -time_end")
         found, self.left_out = pilots.first_pilots(self.workshop, coarsest)
+        if not found:
+            raise Mistake(f"none of the pilot meshes can be drawn: {self.left_out[0]}")
+        if reason := refusals.of_drawing([pilot for pilot in found if (pilot.cell, pilot.role) == (case.cells[0], "size")],
+                                         case.cells[0], self.left_out):
+            raise Refused(reason)
         return found
 
     def run(self, wanted):
@@ -115,9 +124,8 @@ class Planning:
         """Fits, and the search over what could be run. Raises Refused."""
         main = self.case.cells[0]
         sizes = self.of(main)
-        if len(sizes) < refusals.FEWEST_SIZES:
-            raise Refused(f"only {len(sizes)} meshes of {main} cells could be run, and an order needs "
-                          f"{refusals.FEWEST_SIZES}: " + "; ".join(self.left_out))
+        if reason := refusals.of_drawing(sizes, main, self.left_out):
+            raise Refused(reason)
         of_cycle = any(wish.kind != "trajectory" for wish in self.wishes)
         usable = refusals.usable(sizes) if of_cycle else sizes
         if reason := refusals.of_regime(usable, sizes):
@@ -208,52 +216,18 @@ def announcement(wanted):
     return f"{len(wanted)} pilot runs, about {price:.2g} s of one core: {'; '.join([sizes, *others])}"
 
 
-def with_changes(scene, recipe, changes, manuals):
-    """Both with options of the command line, each given to the program that knows it. Raises Mistake."""
-    for name, text in changes:
-        value = values_of(text, takes_list=True)[0] if "," in text else values_of(text)[0]
-        (recipe if owner(name, manuals) == "morphology" else scene)[name] = value
-    return scene, recipe
-
-
-def parsed(words):
-    parser = Parser("plan", __doc__)
-    parser.add_argument("scene", help="YAML file, options of slide")
-    parser.add_argument("--recipe", required=True, help="YAML file, options of morphology for the block")
-    parser.add_argument("--want", help="results and how accurate they shall be, as friction:1%%,frequency:0.5%%")
-    parser.add_argument("--budget", help="time of one core, as 90s, 10min or 2h: what accuracy does it buy?")
-    parser.add_argument("--output", default="out/plan", help="folder (default: out/plan)")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="of averages, s; default: the second "
-                        "half of the run")
-    parser.add_argument("--before", nargs=2, type=float, metavar=("FROM", "TO"), help="of trajectories, s")
-    parser.add_argument("--cells", default="grid,triangle", help="kinds that are tried, the first most (default: "
-                        "grid,triangle)")
-    parser.add_argument("--sizes", type=float, metavar="SIZE", help="of the coarsest pilot mesh, m (default: by its price)")
-    parser.add_argument("--pilots", default="1min", help="what all pilot runs may take while the proposal is short")
-    parser.add_argument("--jobs", type=int, default=1, help="pilot runs at a time")
-    parser.add_argument("--dry-run", action="store_true", help="only draw the pilot meshes and say what their runs take")
-    parser.add_argument("--quiet", action="store_true", help="only the answer")
-    changes, left = paired(words)
-    asked = parser.parse_args(left)
-    if not (asked.want or asked.budget):
-        parser.error("say what you want, as --want friction:1%, or a --budget, as 10min")
-    asked.pilots = seconds_of(asked.pilots)
-    return asked, changes
-
-
 def planning_of(asked, changes):
     """The Planning of a command line. Raises Mistake."""
     manuals = {name: manual for name, manual in manuals_of(programs.folder()).items() if name != "homogenize"}
     scene, recipe = with_changes(options_of(asked.scene), options_of(asked.recipe), changes, manuals)
     wishes = wishes_of(asked.want) if asked.want else list(DEFAULT)
-    if any(wish.kind == "trajectory" for wish in wishes) and not asked.before:
-        raise Mistake("a trajectory is compared over a window before squeal saturates: give it, --before FROM TO, s")
-    case = case_of(scene, recipe, asked.window, asked.before, [cell.strip() for cell in asked.cells.split(",")])
+    demands.of_scene(wishes, scene, asked.before)
+    case = case_of(scene, recipe, asked.window, asked.before, asked.cells)
     return Planning(case, wishes, seconds_of(asked.budget) if asked.budget else None, asked.output, asked)
 
 
 def main(arguments=None):
-    asked, changes = parsed(sys.argv[1:] if arguments is None else arguments)
+    asked, changes = parsed(sys.argv[1:] if arguments is None else arguments, __doc__)
     planning, begun = planning_of(asked, changes), time.monotonic()
     try:
         planning.work()

@@ -14,6 +14,8 @@ SHORT = ("friction's memory is shorter than two cells: c_s T is {length:.3g} m (
          "{most:.3g}. A longer memory helps, T of {enough:.3g} s or more, or more time for the pilots, --pilots {wanted}")
 SHORT_SIZES = ("friction's memory is shorter than two cells of {given:.3g} m: c_s T is {length:.3g} m ({slow:.4g} m/s times "
                "{time:.3g} s). Cells of at most {size:.3g} m help, or T of {enough:.3g} s or more")
+DRAWING = ("only {count} meshes of {cell} cells show one drawing and run, and an order needs {fewest}: {left_out}. Wider "
+           "gap and clearance of the recipe help, or finer pilots, --sizes")
 REGIME = ("the regime changes between the pilot meshes: {seen}. What a coarse mesh does says nothing about a fine one; finer "
           "pilots help, --sizes {size:.3g}, or more friction memory or damping, which make the small waves weaker")
 UNSETTLED = ("the window has not settled: {seen} of {count} runs change from its first half to its second. A later window "
@@ -43,6 +45,12 @@ def of_memory(case, seconds, most, top, given=None):
     cheap = case.memory_size() * (seconds / most)**(1 / 3)
     return SHORT.format(seconds=seconds, most=most, wanted=f"{1.2 * seconds / 60:.3g}min",
                         enough=ACROSS_MEMORY * cheap / case.slowest_shear, **told)
+
+
+def of_drawing(pilots, cell, left_out):
+    """Fewer than FEWEST_SIZES `pilots` of one kind of cells."""
+    return DRAWING.format(count=len(pilots), cell=cell, fewest=FEWEST_SIZES, left_out="; ".join(left_out)) \
+        if len(pilots) < FEWEST_SIZES else None
 
 
 def alike(one, other):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slipscale.mistakes import Mistake
-from slipscale.planning import values
+from slipscale.planning import demands, values
 from slipscale.planning.errors import Runs, between, fitted
 from slipscale.planning.wishes import DISTANCES
 
@@ -90,6 +90,7 @@ def results(wishes, kept, seeds, cells, case):
     for wish in wishes:
         if wish.kind in ("average", "stress"):
             found[wish.name] = of_average(wish.name, kept, cells)
+            demands.of_size(wish, found[wish.name].size)
             found[wish.name].morphology = morphology(wish.name, seeds, own, found[wish.name].size)
         else:
             found[wish.name] = of_distance(wish, kept, cells, case)

@@ -15,6 +15,7 @@ TRAJECTORIES = {  # of the probe point and the measured boundary, before squeal 
 }
 DISTANCES = {"spectrum": "√density of friction below 2 MHz, relative L2 distance",
              "portrait": "phase portrait of the probe point, in standard deviations"}
+SHARES = ("friction", "stick", "slip", "open", "power_ratio")  # without a unit, below or near one
 STRESS = "stress_"  # and the name of a region
 SECONDS = {"s": 1, "min": 60, "h": 3600}
 
@@ -73,6 +74,8 @@ def wishes_of(text):
         percent = bool(number[2])
         if kind in ("trajectory", "distance"):
             percent, value = True, value if percent else 100 * value
+        if (value if percent else 100 * value * (name in SHARES)) >= 100:
+            raise Mistake(f"{part.strip()!r} allows an error as large as the result itself: write {name}:1%, say")
         found.append(Wish(name, share=value / 100) if percent else Wish(name, absolute=value))
     if len({wish.name for wish in found}) < len(found):
         raise Mistake(f"{text} wishes for one result twice")

@@ -11,7 +11,7 @@ run's window from each other, which is what scatter alone makes. Options in whic
 from slipscale.measuring.averages import with_error
 from slipscale.measuring.comparing import UNITS, changed_options, differences, distances, read_all
 from slipscale.measuring.window import MICRO
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 
 
 def aligned(rows):
@@ -66,6 +66,7 @@ def text(runs):
     """What is said about the runs."""
     begin, end = (time * MICRO for time in runs[0].window)
     parts = [f"from {begin:.4g} to {end:.4g} µs; errors are standard errors from blocks of the window",
+             *(f"note on {run.name}: {note}" for run in runs for note in run.notes),
              aligned(numbers(runs)), aligned(apart(runs))]
     if changes := changed_options(runs):
         rows = [["option", *(run.name for run in runs)],
@@ -81,7 +82,7 @@ def main(arguments=None):
     parser = Parser("compare", __doc__)
     parser.add_argument("folders", nargs="+", metavar="folder",
                         help="output folders of slide; the first is held against")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of means and spectra, s")
+    parser.add_argument("--window", action=Window, metavar=("FROM", "TO"), help="times of means and spectra, s")
     parser.add_argument("--point", type=int, default=0, help="probe point of the phase portraits (default 0)")
     parser.add_argument("--picture", help="image to write; the ending chooses the format")
     asked = parser.parse_args(arguments)

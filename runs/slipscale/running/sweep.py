@@ -25,6 +25,7 @@ MOST_RUNS = 100000
 LIST = "numbers"  # how the manual's kind of an option that takes a list begins
 SET_BY_THE_STUDY = {"output_folder": "the study gives each run a folder",
                     "options_file_yaml": "put its options in `scene`"}
+CONSTANTS = ("H", "L", "pi")  # that every formula knows
 PETSC = ("log_view", "options_view", "options_left", "malloc_", "memory_view")
 
 
@@ -148,16 +149,29 @@ def takes_list(name, manuals):
     return any((kind_of(name, options) or "").startswith(LIST) for options in manuals.values())
 
 
-def check(name, value, manuals):
-    """Raises Mistake for a value that every run would refuse."""
+def parameters_in(options):
+    """Names that the formulas of flat options may hold."""
+    return {name.removeprefix("parameters_") for name in options if name.startswith("parameters_")}
+
+
+def may_be_formula(text, kind, parameters):
+    """Whether a text is more than a word that no formula of this kind knows; the programs read the rest."""
+    found = re.search(r"formula of ([\w, ]+)", kind)
+    known = {*CONSTANTS, *parameters, *(re.findall(r"\w+", found[1]) if found else ())}
+    return bool(found) and (not re.fullmatch(r"[^\W\d]\w*", text) or text in known)
+
+
+def check(name, value, manuals, parameters=()):
+    """Raises Mistake for a value that every run would refuse; `parameters`: names that formulas may hold."""
     if name in SET_BY_THE_STUDY:
         raise Mistake(f"-{name} cannot be set: {SET_BY_THE_STUDY[name]}.")
     kind = kind_of(name, manuals[owner(name, manuals)]) or ""
-    if kind.startswith(("a number", "a whole number")) and not isinstance(number_or_text(word(value)), (int, float)):
+    if kind.startswith(("a number", "a whole number")) and not isinstance(number_or_text(word(value)), (int, float)) and \
+            not may_be_formula(word(value), kind, parameters):
         raise Mistake(f"-{name} {word(value)} is not {kind}.")
 
 
-def combinations(sweep, rows, manuals):
+def combinations(sweep, rows, manuals, parameters=()):
     """The options varied in each run, a list of dicts: all combinations of the dict `sweep`, then the `rows` (a list of
     dicts, or a CSV file). An option that is null is left out of the sweep; a row may lack options."""
     sweep = {name: values_of(given, takes_list(name, manuals)) for name, given in (sweep or {}).items()
@@ -175,7 +189,7 @@ def combinations(sweep, rows, manuals):
     runs += [{name: row[name] for name in row if row[name] is not None} for row in rows]
     for run in runs:
         for name, value in run.items():
-            check(name, value, manuals)
+            check(name, value, manuals, parameters)
     return runs
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import yaml
 
 from slipscale.mistakes import Mistake
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.reading import yaml_file
 from slipscale.running import programs
 from slipscale.running.attempt import write_whole
@@ -107,7 +107,7 @@ def parsed(words):
     parser.add_argument("scene", nargs="*", help="YAML files, as with -options_file_yaml")
     parser.add_argument("--recipe", help="YAML file, options of morphology for the block")
     parser.add_argument("--list", help="CSV file of combinations to run, a column for each option")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("FROM", "TO"), help="times of the averages, s "
+    parser.add_argument("--window", action=Window, metavar=("FROM", "TO"), help="times of the averages, s "
                         "(default: the second half of each run)")
     parser.add_argument("--output", help="folder (default: below out/sweeps, by the names of what is varied)")
     parser.add_argument("--ranks", type=int, help="of each run")

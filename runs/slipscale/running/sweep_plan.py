@@ -9,7 +9,7 @@ from pathlib import Path
 
 from slipscale.mistakes import Mistake
 from slipscale.running.commands import flat
-from slipscale.running.sweep import check, combinations, manual, name_of, named, owner
+from slipscale.running.sweep import check, combinations, manual, name_of, named, owner, parameters_in
 
 PROGRAMS = ("slide", "morphology", "homogenize")
 BLOCK, COMPOSITE = "block", "composite"
@@ -62,7 +62,7 @@ def checked(config, manuals):
             ("homogenize", constants), ("slide", scene)]:
         for name, value in options.items():
             if not name.startswith("cell_"):  # PETSc's solver options
-                check(name, value, {program: manuals[program]} if program in manuals else manuals)
+                check(name, value, {program: manuals[program]} if program in manuals else manuals, parameters_in(scene))
     return recipes, constants, scene
 
 
@@ -71,7 +71,8 @@ def plan(config, manuals):
     if not config.get("homogenize"):
         manuals = {name: options for name, options in manuals.items() if name != "homogenize"}
     recipes, constants, scene = checked(config, manuals)
-    runs = combinations(config.get("sweep"), config.get("list"), manuals)
+    runs = combinations(config.get("sweep"), config.get("list"), manuals,
+                        parameters_in({**scene, **(config.get("sweep") or {})}))
     usual = {name: usual_value(name, [scene, constants, *recipes.values()]) for run in runs for name in run}
     filled = {name: value for name, value in usual.items() if value is not None}
     found = Plan(named([{name: {**filled, **run}[name] for name in usual if name in run or name in filled}

@@ -56,7 +56,7 @@ def report(worn):
     seconds = worn.time[-1] - worn.time[0]
     slip = worn.mean(worn.sums["slip_distance"][-1])
     work = worn.mean(worn.sums["friction_work"][-1])
-    lines = [f"{worn.time[0]:g} to {worn.time[-1]:g} s: slip distance {_digits(slip)} m, friction work {_digits(work)} "
+    lines = [*(f"note: {note}" for note in worn.notes), f"{worn.time[0]:g} to {worn.time[-1]:g} s: slip distance {_digits(slip)} m, friction work {_digits(work)} "
              f"J/m^2, closed {_digits(100 * worn.mean(worn.sums['time_closed'][-1]) / seconds)} % of the time (means over "
              "the contact's length)"]
     for law, depths in worn.depth.items():

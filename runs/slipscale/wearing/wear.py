@@ -20,7 +20,7 @@ import os
 from pathlib import Path
 
 from slipscale.mistakes import Mistake
-from slipscale.parser import Parser
+from slipscale.parser import Parser, Window
 from slipscale.wearing.constants import by_region
 
 THERMAL = {"conductivity": "W/(m K)", "density": "kg/m^3", "heat_capacity": "J/(kg K)", "share": "at most 1"}
@@ -76,7 +76,7 @@ def main(arguments=None):
     parser.add_argument("--density", metavar="RHO", help="of the body [kg/m³]")
     parser.add_argument("--heat-capacity", metavar="C", help="of the body [J/(kg K)]")
     parser.add_argument("--share", metavar="S", help="part of the friction heat that goes into the body")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("BEGIN", "END"),
+    parser.add_argument("--window", action=Window, metavar=("BEGIN", "END"),
                         help="times [s] between which wear counts (default: the whole run)")
     options = parser.parse_args(arguments)
     factors, thermal = factors_of(options), thermal_of(options)

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from slipscale.measuring.window import backwards, cut_away, unfinished
 from slipscale.mistakes import Mistake
-from slipscale.reading import ContactHistory, UnreadableRun
+from slipscale.reading import ContactHistory, Summary, UnreadableRun
 from slipscale.wearing import depth, flash
 from slipscale.wearing.constants import at_nodes
 
@@ -17,7 +18,7 @@ TAKEN = ("friction_work", "pressure_slip", "slip_distance", "time_closed")
 class Worn:
     """time [n] s, of the rows in the window; x, length [nc] m; shares {region: [nc]}; sums {name: [n, nc]} since the
     window's first row; depth {law: [n, nc]} m since then; phases {law: [Phase]}; temperature [n, nc] K over that of the
-    run's start, or None."""
+    run's start, or None; notes: what has to be said of the window and of the run's end, sentences."""
 
     time: np.ndarray
     x: np.ndarray
@@ -27,6 +28,7 @@ class Worn:
     depth: dict = field(default_factory=dict)
     phases: dict = field(default_factory=dict)
     temperature: np.ndarray | None = None
+    notes: tuple = ()
 
     def mean(self, values):
         """Of [nc] over the length of the contact."""
@@ -34,7 +36,7 @@ class Worn:
 
 
 def read(folder, window):
-    """(time, sums {name: [n, nc]} since t = 0, x, length, shares, rows of the window). Raises UnreadableRun."""
+    """(time, sums {name: [n, nc]} since t = 0, x, length, shares, rows of the window, notes). Raises UnreadableRun."""
     path = Path(folder) / "contact.h5"
     with ContactHistory(folder) as file:
         if missing := [name for name in TAKEN if f"sums/{name}" not in file.sums]:
@@ -44,12 +46,17 @@ def read(folder, window):
         shares = {name: share for name, share in shares.items() if share.any()}
         sums = {name: file.read(f"sums/{name}") for name in TAKEN}
         time, x, length = file.time, file.x, file.tributary_length
+    if len(time) < 2:
+        raise UnreadableRun(f"{path} has {len(time)} rows yet, and wear over a time needs 2: let the run go on for a while.")
     begin, end = window or (time[0], time[-1])
+    if wrong := backwards((begin, end)):
+        raise UnreadableRun(f"the window {wrong}.")
     rows = np.flatnonzero((time >= begin * (1 - 1e-9)) & (time <= end * (1 + 1e-9)))
     if len(rows) < 2:
         raise UnreadableRun(f"{path} has {len(rows)} rows between {begin:g} and {end:g} s, and wear over a time needs 2: "
                             f"it reaches from {time[0]:g} to {time[-1]:g} s; widen --window.")
-    return time, sums, x, length, shares, rows
+    notes = filter(None, (cut_away(time, (begin, end)), unfinished(Summary(folder), time[-1])))
+    return time, sums, x, length, shares, rows, tuple(notes)
 
 
 def heat_flow(time, sums, shares, thermal):
@@ -63,7 +70,7 @@ def heat_flow(time, sums, shares, thermal):
 def worn(folder, factors, thermal=None, window=None):
     """The Worn of a run. factors(regions) gives {law: {region: k/H or k_E}} and thermal(regions) the constants of
     `heat_flow` or None. Raises Mistake."""
-    time, sums, x, length, shares, rows = read(folder, window)
+    time, sums, x, length, shares, rows, notes = read(folder, window)
     found = factors(list(shares))
     heating = thermal(list(shares)) if thermal else None
     if not found and heating is None:
@@ -74,7 +81,7 @@ def worn(folder, factors, thermal=None, window=None):
     last = {name: values[-1] for name, values in sums.items()}
     return Worn(time[rows], x, length, shares, sums,
                 {law: depth.depth(law, factor, sums, shares) for law, factor in found.items()},
-                {law: depth.phases(law, factor, last, shares, length) for law, factor in found.items()}, temperature)
+                {law: depth.phases(law, factor, last, shares, length) for law, factor in found.items()}, temperature, notes)
 
 
 if __name__ == "__main__":

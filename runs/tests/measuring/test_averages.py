@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from slipscale.measuring.averages import block_error, error_of_mean, mean_of, ratio_of_means, settling, with_error
-from slipscale.measuring.window import choose_window, default_window
+from slipscale.measuring.window import choose_window, cut_away, default_window
 from slipscale.reading import UnreadableRun
 
 
@@ -70,6 +70,11 @@ class Window(unittest.TestCase):
         self.assertEqual(default_window(time), (2e-4, 4e-4))
         self.assertEqual(choose_window(time), (2e-4, 4e-4))
         self.assertEqual(choose_window(time, (1e-4, 9)), (1e-4, 4e-4))
+        self.assertIn("the window 0.0001 to 9 s reaches beyond", cut_away(time, (1e-4, 9)))
+        self.assertIn("reaches beyond", cut_away(time, (-1e-4, 1e-4)))
+        self.assertEqual(cut_away(time, (0, 4e-4)), "")
+        with self.assertRaisesRegex(UnreadableRun, "goes from 0.0002 to 0.0001 s: give the earlier time first"):
+            choose_window(time, (2e-4, 1e-4))
         with self.assertRaisesRegex(UnreadableRun, "Only 1[01] rows"):
             choose_window(time, (1e-4, 1.1e-4))
 

@@ -63,6 +63,27 @@ class Compared(unittest.TestCase):
             self.assertIn(words, said.getvalue())
         self.assertGreater(picture.stat().st_size, 50000)
 
+    def test_what_a_window_and_a_run_lack_is_said(self):
+        (self.folders[1] / "run.yaml").write_text("time_end: 8e-4\n")
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertEqual(command.main(["compare", *map(str, self.folders[:2]), "--window", "1e-4", "1e-3"]), 0)
+        for name in ("one", "two"):
+            self.assertIn(f"note on {name}: the window 0.0001 to 0.001 s reaches beyond", said.getvalue())
+        self.assertIn("note on two: the run has reached 399.9 µs of 800 µs: still running", said.getvalue())
+        self.assertEqual(read_all(self.folders[::2])[0].notes, ())
+
+    def test_a_window_that_runs_backwards_is_refused_by_every_command(self):
+        one = str(self.folders[0])
+        for words in (["compare", one, one], ["picture", one, "p.png"], ["wear", one, "w", "--energy", "1"],
+                      ["adapt", one, one, "--output", "a"], ["sweep", "scene.yaml"],
+                      ["plan", "scene.yaml", "--recipe", "r.yaml", "--want", "friction:1%"]):
+            said = io.StringIO()
+            with self.subTest(words), contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as stop:
+                command.main([*words, "--window", "2e-4", "1e-4"])
+            self.assertEqual(stop.exception.code, 2)
+            self.assertRegex(said.getvalue(), r"--window: goes from 0.0002 to 0.0001 s: give the earlier time first [^\n]*\n$")
+
     def test_one_run_is_no_comparison(self):
         with self.assertRaisesRegex(UnreadableRun, "two folders"):
             read_all(self.folders[:1])

@@ -27,8 +27,8 @@ class Picture(unittest.TestCase):
             code = picture.main([str(self.folder), str(self.folder / "picture.png"), *extra])
         return code, said.getvalue()
 
-    def titles(self):
-        figure = picture.draw(self.folder)
+    def titles(self, window=None):
+        figure = picture.draw(self.folder, window)
         return [axes.get_title() for axes in figure.axes], figure._suptitle.get_text()
 
     def test_complete_run(self):
@@ -78,6 +78,11 @@ class Picture(unittest.TestCase):
         code, said = self.run_main("--window", "2.5e-4", "4e-4")
         self.assertEqual((code, said.count("\n")), (2, 1))
         self.assertIn("Only 0 rows", said)
+
+    def test_a_window_that_is_cut_is_said(self):
+        fake_run.write_run(self.folder, end=1e-4)
+        self.assertEqual(self.run_main("--window", "5e-5", "4e-4"), (0, ""))
+        self.assertIn("the window 5e-05 to 0.0004 s reaches beyond", self.titles((5e-5, 4e-4))[1])
 
     def test_unknown_kind_of_picture(self):
         with self.assertRaises(SystemExit) as stop, contextlib.redirect_stderr(io.StringIO()) as said:

@@ -47,6 +47,16 @@ class Cases(unittest.TestCase):
         self.assertEqual((coarse["gap"], coarse["clearance"]), (50e-6, 50e-6))  # of the recipe, at every size
         self.assertNotIn("size_surface", case.recipe_of("grid", 100e-6))
 
+    def test_a_drawing_does_not_follow_the_size(self):
+        """Gaps that the recipe leaves open are the same at every size, also where it gives none that they would follow."""
+        open_ = {name: value for name, value in DISCS.items() if name != "size"}
+        for recipe, gaps in ((DISCS, (50e-6, 50e-6)), (open_, (75e-6, 75e-6)), ({**open_, "gap": 60e-6}, (60e-6, 75e-6))):
+            for size in (200e-6, 50e-6):
+                found = case_of(SCENE, recipe).recipe_of("grid", size)
+                self.assertEqual(gaps, (found["gap"], found["clearance"]))
+        self.assertIsNone(case_of(SCENE, {**open_, "gap": 60e-6, "clearance": "60e-6"}).gap())
+        self.assertNotIn("gap", case_of(SCENE, BLOCK).recipe_of("grid", 1e-4))
+
     def test_windows(self):
         case = case_of(SCENE, BLOCK)
         self.assertEqual(case.window, (200e-6, 400e-6))

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from slipscale.planning.costs import damped, disk, fitted_price, undamped
+from slipscale.planning.costs import contact_rows, damped, disk, fitted_price, undamped
 
 
 class Costs(unittest.TestCase):
@@ -32,6 +32,12 @@ class Costs(unittest.TestCase):
                                1e4 * 100 + 1e3 * 11 * 124 + 330e3 + 11 * 84e3)
         self.assertAlmostEqual(disk({**options, "contact_sums": False}, 1000, 11, 1e-4, 1e-9, row=100),
                                1e4 * 100 + 1e3 * 11 * 68 + 330e3 + 11 * 84e3)
+
+    def test_rows_of_the_contact_by_themselves(self):
+        """A thousand, of a short run one in 25 steps."""
+        self.assertEqual(contact_rows({}, 1e-4, 1e-9), 1000)
+        self.assertAlmostEqual(contact_rows({"contact_every": "auto"}, 1e-5, 1e-9), 400)
+        self.assertAlmostEqual(contact_rows({"contact_interval": 1e-7}, 1e-5, 1e-9), 100)
 
 
 if __name__ == "__main__":

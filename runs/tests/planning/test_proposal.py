@@ -76,6 +76,11 @@ class Refusals(unittest.TestCase):
         self.assertIsNone(refusals.of_memory(case, 60, 60, case.memory_size()))
         self.assertIsNone(refusals.of_memory(case, 600, 60, 0.5 * case.memory_size()))  # it is not the memory
 
+    def test_drawing(self):
+        self.assertIsNone(refusals.of_drawing([pilot(h) for h in SIZES[:3]], "grid", []))
+        self.assertIn("only 2 meshes of grid cells show one drawing and run, and an order needs 3: 400 µm moved. Wider gap",
+                      refusals.of_drawing([pilot(h) for h in SIZES[:2]], "grid", ["400 µm moved"]))
+
     def test_regime(self):
         alike = [pilot(h) for h in SIZES]
         self.assertEqual(refusals.usable(alike), alike)

@@ -17,7 +17,9 @@ class Wishes(unittest.TestCase):
     def test_mistakes_name_the_cure(self):
         for text, cure in (("fricton:1%", "is friction meant"), ("friction", "write friction:1%"),
                            ("friction:-1%", "write friction:1%"), ("friction:0", "write friction:1%"),
-                           ("friction:1%,friction:2%", "twice"), ("stress_:1%", "can be wished for")):
+                           ("friction:1%,friction:2%", "twice"), ("stress_:1%", "can be wished for"),
+                           ("friction:200%", "as large as the result"),
+                           ("friction:2", "as large as the result"), ("spectrum:1", "as large as the result")):
             with self.assertRaisesRegex(Mistake, cure):
                 wishes_of(text)
 

@@ -19,6 +19,7 @@ friction
       -mu, see above
   -boundary_<boundary>_x  free, fixed or a number (m); default free
   -boundary_<boundary>_pressure  a number (Pa); default 0
+  -surface_speed  a number |x| < 1e100 or a formula of t (m/s); required
   -initial_velocity  numbers separated by commas (m/s); default 0,0
   -time_end  a number > 0 (s); required
   -time_step  auto or a number > 0 (s); default auto
@@ -94,13 +95,15 @@ class Manuals(unittest.TestCase):
             sweep.manual("/nowhere/slide")
 
     def test_what_every_run_would_refuse(self):
-        for name, value in (("friction_coefficient", "a lot"), ("boundary_top_pressure", [1, 2]), ("seed", "1:x:2")):
+        for name, value in (("friction_coefficient", "a lot"), ("boundary_top_pressure", [1, 2]), ("seed", "1:x:2"),
+                            ("surface_speed", "fast"), ("surface_speed", "V")):
             with self.assertRaisesRegex(Mistake, f"-{name} .* is not a"):
                 sweep.check(name, value, MANUALS)
+        sweep.check("surface_speed", "V", MANUALS, sweep.parameters_in({"parameters_V": 2, "time_end": 1}))
         with self.assertRaisesRegex(Mistake, "gives each run a folder"):
             sweep.check("output_folder", "here", MANUALS)
         for name, value in (("friction_coefficient", "0.5"), ("friction_coefficient", -1), ("time_step", "auto"),
-                            ("boundary_top_x", "fixed")):
+                            ("boundary_top_x", "fixed"), ("surface_speed", "2*(1 + 0.1*sin(t))")):
             sweep.check(name, value, MANUALS)  # -1 is refused by slide, and a row says so
 
 

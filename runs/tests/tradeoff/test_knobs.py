@@ -32,6 +32,8 @@ class Knobs(unittest.TestCase):
         rows = [{"seconds": 1, "off": -0.1}, {"seconds": 2, "off": 0.2}, {"seconds": 3, "off": 0.05},
                 {"seconds": 4, "off": None}, {"seconds": 3, "off": 0.06}]
         self.assertEqual(front(rows, "seconds", "off"), [rows[0], rows[2]])
+        known = [{**row, "bar": 0.12} for row in rows]  # what is nearer than its bar is no nearer than that
+        self.assertEqual(front(known, "seconds", "off", "bar"), known[:1])
         self.assertEqual(within(rows, "seconds", "off", 0.07), rows[2])
         self.assertEqual(within(rows, "seconds", "off", 0.15), rows[0])
         self.assertIsNone(within(rows, "seconds", "off", 0.01))

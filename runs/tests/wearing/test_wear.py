@@ -73,6 +73,20 @@ class Wear(unittest.TestCase):
         work = contact.sums["friction_work"]
         np.testing.assert_allclose(found["depth/energy"][-1], 1e-14 * (work[rows[1]] - work[rows[0]]), rtol=1e-12)
 
+    def test_what_a_window_and_a_run_lack_is_said(self):
+        """A window that is cut, a run that was interrupted; nothing where both are whole."""
+        self.assertNotIn("note", self.wear("--energy", "1e-14", "--window", "1e-4", "4e-4")[1])
+        code, said, _ = self.wear("--energy", "1e-14", "--window", "1e-4", "9e-4")
+        self.assertEqual(code, 0)
+        self.assertIn("note: the window 0.0001 to 0.0009 s reaches beyond what is recorded, 0 to 0.00039995 s, and is cut", said)
+        fake_run.write_run(self.folder / "stopped")
+        for state, words in (("", "still running, or stopped early"),
+                             ("state: interrupted\ninterrupted_by: SIGTERM\n", "interrupted by SIGTERM")):
+            (self.folder / "stopped/summary.yaml").write_text(state)
+            (self.folder / "stopped/run.yaml").write_text("time_end: 8e-4\n")
+            self.assertIn(f"note: the run has reached 399.9 µs of 800 µs: {words}\n",
+                          self.wear("--energy", "1e-14", run="stopped")[1])
+
     def test_flash_temperature_is_that_of_the_heat(self):
         code, said, _ = self.wear(*HEAT)
         self.assertEqual(code, 0)
@@ -95,6 +109,8 @@ class Wear(unittest.TestCase):
             HEAT[:4]: "--conductivity without --heat-capacity",
             (*HEAT[:-1], "1.5"): "--share is 1.5",
             ("--energy", "1", "--window", "1", "2"): "has 0 rows between 1 and 2 s",
+            ("--energy", "1", "--window", "2e-4", "1e-4"): "--window: goes from 0.0002 to 0.0001 s: give the earlier time first",
+            ("--energy", "1", "--window", "nan", "1e-4"): "--window: goes from nan to 0.0001 s",
         }.items():
             with self.subTest(words):
                 code, _, wrong = self.wear(*words)
