@@ -13,6 +13,7 @@ from scenes import SQUEAL, block
 
 SCENE = {**SQUEAL, "time_step": 2e-9, "time_end": 4e-6, "contact_every": 100, "history_every": 10, "fields_every": 400,
          "fields_quantities": "u,v,stress,strain,von_mises", "checkpoint_every": 900}
+LONG = {**SCENE, "time_step": 1e-10, "history_every": 1000, "fields_every": 20000, "checkpoint_every": 9000}  # 40 000 steps
 FIELDS = [f"frames/00001/{name}" for name in ("u", "v", "stress", "stress_zz", "strain", "von_mises")]
 DATASETS = {
     "history.h5": ["time", "step", "energy/strain", "boundary/top/normal_force", "points/0/u", "points/1/stress"],
@@ -146,26 +147,31 @@ class Folders(InFolder):
 
 class Cadence(InFolder):
     def rows(self):
-        return [int(round(t / 2e-9)) for t in datasets(self.folder / "out" / "contact.h5")["time"]]
+        """The steps of the rows of contact.h5."""
+        return [int(round(t / LONG["time_step"])) for t in datasets(self.folder / "out" / "contact.h5")["time"]]
 
     def run_facts(self):
         return yaml.safe_load((self.folder / "out" / "run.yaml").read_text())
 
     def test_of_contact_that_was_auto_stays_with_a_later_end(self):
-        self.run_scene(SCENE, contact_every="auto")
-        self.assertEqual(self.run_facts()["run"]["contact_every"], 2)
+        self.run_scene(LONG, contact_every="auto")
+        self.assertEqual(self.run_facts()["run"]["contact_every"], 40)
         outcome = self.slide("-restart", "out", "-time_end", 8e-6)
         self.assertEqual(outcome.codes, [0])
         facts = self.run_facts()
-        self.assertEqual((facts["contact_every"], facts["run"]["contact_every"]), ("auto", 2))
-        self.assertEqual(self.rows(), list(range(0, 4001, 2)))
+        self.assertEqual((facts["contact_every"], facts["run"]["contact_every"]), ("auto", 40))
+        self.assertEqual(self.rows(), list(range(0, 80001, 40)))
+
+    def test_of_contact_that_is_auto_is_25_in_a_short_run(self):
+        self.run_scene(SCENE, contact_every="auto")
+        self.assertEqual(self.run_facts()["run"]["contact_every"], 25)
 
     def test_of_contact_that_is_made_auto_is_that_of_the_whole(self):
-        self.run_scene(SCENE, contact_every=50)
+        self.run_scene(LONG, contact_every=50)
         outcome = self.slide("-restart", "out", "-time_end", 8e-6, "-contact_every", "auto")
         self.assertEqual(outcome.codes, [0])
-        self.assertEqual(self.run_facts()["run"]["contact_every"], 4)
-        self.assertEqual(self.rows(), [*range(0, 2000, 50), *range(2000, 4001, 4)])
+        self.assertEqual(self.run_facts()["run"]["contact_every"], 80)
+        self.assertEqual(self.rows(), [*range(0, 40000, 50), *range(40000, 80001, 80)])
 
 
 class Elsewhere(InFolder):
