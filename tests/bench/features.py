@@ -20,6 +20,8 @@ BARE = {"material_all_young": 45e9, "material_all_poisson": 0.25, "material_all_
         "contact_every": 10**7, "contact_sums": "false", "checkpoint_minutes": 0, "progress": "none"}
 FRICTION = {"friction_law": "regularized", "friction_coefficient": 0.5, "friction_time": 6e-7}
 ROWS = {"history_every": 10}
+FREE = {"boundary_top_x": None, "boundary_top_y": None, "boundary_top_ramp": None}
+TABLE = Path("initial.csv")  # in the folder of the runs
 FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "bare": {},
     "mass damping": {"damping_mass": 100},
@@ -36,6 +38,13 @@ FEATURES = {  # name: options on top of the bare scene; None leaves one out
     "a coefficient that falls with the slip rate": {**FRICTION, "friction_law": "exponential", "friction_kinetic": 0.3,
                                                     "friction_slip_rate": 1},
     "friction of each phase": {**FRICTION, "friction_matrix_coefficient": 0.7, "friction_matrix_time": 3e-7},
+    "a coefficient that is a formula of the place": {**FRICTION, "friction_coefficient": "0.5 + 0.1*sin(2*pi*x/L)"},
+    "the same of place and time": {**FRICTION, "friction_coefficient": "0.5 + 0.1*sin(2*pi*(x/L - t/1e-5))"},
+    "a surface speed that is a formula of time": {**FRICTION, "surface_speed": "2*(1 + 0.1*sin(2*pi*t/1e-5))"},
+    "an upper side that is free": FREE,
+    "a pressure on it that is a formula of place and time": {**FREE, "boundary_top_pressure": "1e6*(1 + x/L*sin(2*pi*t/1e-5))"},
+    "an open end": {**FREE, "boundary_top_absorbing": "true", "initial_pressure": 1e6},
+    "an initial state from a table of 100 x 100 points": {"initial_file": TABLE},
     "a rigid side with a plate": {"boundary_top_y": "rigid", "boundary_top_force": 7e4, "boundary_top_mass": 0.1},
     "history, a row in 10 steps": ROWS,
     "the same with five probes": {**ROWS, "history_points": "1e-3,0,2e-3,0,2.5e-3,0,3e-3,1e-3,4e-3,2e-3"},
@@ -64,9 +73,16 @@ def mesh_of(build, size, periodic, folder):
     return folder / "mesh.msh"
 
 
+def write_table(path, side=5e-3, points=100):
+    """A block that is pressed a little, evenly."""
+    places = [side * k / (points - 1) for k in range(points)]
+    path.write_text("x,y,ux,uy\n" + "".join(f"{x!r},{y!r},0,{-1e-5 * y!r}\n" for y in places for x in places))
+
+
 def run(build, mesh, options, steps, folder):
     """Processor seconds and the most memory, B, of a run; nodes."""
     options = {**BARE, **options, "time_end": steps * BARE["time_step"], "mesh_file": mesh, "output_folder": folder / "out"}
+    options = {name: folder / value if value is TABLE else value for name, value in options.items() if value is not None}
     words = [word for name, value in options.items() for word in (f"-{name}", str(value))]
     process = subprocess.Popen([build / "slide", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
@@ -106,6 +122,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         meshes = [mesh_of(asked.build, asked.size, periodic, folder / f"mesh{periodic}") for periodic in (False, True)]
+        write_table(folder / TABLE)
         found, nodes = measured(asked.build, meshes, names, asked.steps, asked.repeat, folder)
     bare = [statistics.median(values) for values in found["bare"]]
     print(f"{nodes} nodes, {asked.steps} steps, medians of {asked.repeat}\n")
