@@ -9,6 +9,7 @@ import numpy as np
 import yaml
 sys.path.insert(0, str(Path(__file__).parents[1] / "verification"))
 import disc_arrays
+from finding import report
 from relocalizing import RUN, Relocalising, areas_of, frames_of, macro_grid, write_fields
 from running import datasets
 from scenes import SIDE, block
@@ -120,8 +121,7 @@ class OfASquareArrayOfDiscs(Relocalising):
                     (f"normal at 0 degrees, GPa, 128 {name} elements per cell", "70.2756 +- 0.02", f"{at_zero[2] * 1e-9:.4f}", "-"),
                     (f"normal and shear along the outline, relative L2 error, 128 {name} elements", "<= 2e-3" + ("; order >= 0.95" if name == "P1" else ""),
                      f"{distance[2]:.1e}", f"{order:.2f}")):
-                print(f"verification | {topic} | {quantity} | {expected} | {said} | {shown} | complex potentials, disc_arrays.py",
-                      flush=True)
+                report(topic, quantity, expected, said, "complex potentials, disc_arrays.py", shown)
             self.assertLess(abs(at_zero[2] - self.EXACT), 0.02e9)
             self.assertLess(distance[2], 2e-3)
             if name == "P1":  # of quadrilaterals only the stress at the centre is known, not what varies within

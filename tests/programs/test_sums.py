@@ -5,6 +5,7 @@ import os
 import unittest
 
 import numpy as np
+from finding import report
 from running import InScratch, arguments_of, datasets, h5py
 from scenes import SIDE, SQUEAL, block
 
@@ -20,10 +21,6 @@ def areas(fields):
     corners = fields["mesh/coordinates"][fields["mesh/cells"]]
     after = np.roll(corners, -1, axis=1)
     return 0.5 * np.abs((corners[..., 0] * after[..., 1] - after[..., 0] * corners[..., 1]).sum(axis=1))
-
-
-def report(topic, quantity, expected, found, source):
-    print("verification | " + " | ".join((topic, quantity, expected, found, "-", source)), flush=True)
 
 
 class Sums(InScratch):

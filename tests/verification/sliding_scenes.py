@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "runs"))
+sys.path[:0] = [str(Path(__file__).parents[2] / "runs"), str(Path(__file__).parents[1] / "programs")]
 
 SIDE, DIVISIONS = 5e-3, 10  # m; cells along a side
 STEP, EVERY = 10e-9, 20  # s; steps between rows of contact.h5
@@ -73,8 +73,3 @@ def scene(folder, name, divisions=DIVISIONS):
     kind, options = SCENES[name]
     return {"mesh_file": mesh(folder, kind, divisions), **{key: value for key, value in options.items()
                                                            if value is not None}}
-
-
-def row(topic, quantity, expected, found, source, order="-"):
-    """Prints a row of the verification table; tests/verification/table.py gathers them."""
-    print("verification | " + " | ".join((topic, quantity, expected, found, order, source)), flush=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import sliding_scenes
 from dense_modes import Sliding, rates
+from finding import report
 
 import slipscale
 from slipscale.measuring.growth import linear_stretch, seen
@@ -47,7 +48,7 @@ class DenseModes(unittest.TestCase):
         for name in sliding_scenes.SCENES:
             with self.subTest(name):
                 expected, found, closed = self.compared(name)
-                sliding_scenes.row(
+                report(
                     "Growth of small vibration of a 10 x 10 block that slides, from rows of slide",
                     f"{name} ({closed.sum()} of {len(closed)} nodes closed): growth, 1/s; frequency, Hz",
                     f"{expected.real:.6g}; {expected.imag / 2 / np.pi:.7g} within 1e-5",

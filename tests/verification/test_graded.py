@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "programs"))
+from finding import report  # noqa: E402
 from running import InScratch, datasets  # noqa: E402
 from scenes import SIDE, block  # noqa: E402
 
@@ -21,10 +22,6 @@ BODY = {"mesh_file": "block.msh", "material_block_poisson": 0, "material_block_d
         "history_points": f"{SIDE / 2},{SIDE},{SIDE / 2},{SIDE / 2}", "checkpoint_minutes": 0}
 CROSSING = SIDE / np.sqrt(E0 / RHO)
 MEASURED = (8, 16, 32)
-
-
-def report(case, quantity, expected, found, order, source):
-    print(f"verification | {case} | {quantity} | {expected} | {found} | {order} | {source}", flush=True)
 
 
 class Graded(InScratch):
@@ -48,7 +45,7 @@ class Graded(InScratch):
             np.testing.assert_allclose(seen["points/0/stress"][-1], [0, -P, 0], rtol=0, atol=1e-9 * P)
         self.assertLess(abs(errors[-1]), 1e-4)
         report("Graded column, C22 = E0 (1 + y/H), 32 elements, under pressure", "sinking of the top over p H ln 2/E0", "1 +- 1e-4",
-               f"{1 + errors[-1]:.6f}", f"{self.order_of(np.array(errors)):.2f}", "exact solution")
+               f"{1 + errors[-1]:.6f}", "exact solution", f"{self.order_of(np.array(errors)):.2f}")
 
     def test_a_column_that_vibrates(self):
         k = np.pi / np.log(2)
@@ -65,7 +62,7 @@ class Graded(InScratch):
             errors.append(-seen["points/1/u"][-1, 1] / (1e-8 * middle) / (4.5 * np.pi))
         self.assertLess(abs(errors[-1]), 1e-3)
         report("Graded column, C22 = E0 (1 + y/H)^2, 32 elements, held at both ends", "first frequency over the exact one", "1 +- 1e-3",
-               f"{1 + errors[-1]:.6f}", f"{self.order_of(np.array(errors)):.2f}", "exact solution")
+               f"{1 + errors[-1]:.6f}", "exact solution", f"{self.order_of(np.array(errors)):.2f}")
 
     def test_a_graded_density(self):
         """Of mass rho H^2 ∫ (1 + s^2) dA: what falls freely gains that times g t."""
@@ -75,7 +72,7 @@ class Graded(InScratch):
                               body_acceleration="0,-10", history_momentum="true", time_end=CROSSING, history_every=1)
             errors.append(seen["momentum/linear"][-1, 1] / (-10 * seen["time"][-1] * RHO * SIDE**2 * 4 / 3) - 1)
         report("Graded body, density rho (1 + (y/H)^2), 32 elements", "mass over 4/3 rho H^2", "1 +- 1e-4", f"{1 + errors[-1]:.6f}",
-               f"{self.order_of(np.array(errors)):.2f}", "exact integral")
+               "exact integral", f"{self.order_of(np.array(errors)):.2f}")
         self.assertLess(abs(errors[-1]), 1e-4)
 
 

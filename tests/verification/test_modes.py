@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 import sliding_scenes
 from dense_modes import Sliding
+from finding import report
 from modes_program import ModesCase
 
 import slipscale
@@ -39,7 +40,7 @@ class Dense(ModesCase):
                 self.assertEqual((int(state["nodes_in_contact"]), int(state["nodes_open"])),
                                  (len(sliding.closed), len(sliding.contact) - len(sliding.closed)), name)
                 self.assertAlmostEqual(float(state["normal_force"]) / sliding.pressure_force.sum(), 1, delta=1e-9)
-        sliding_scenes.row(TOPIC, f"all of {len(sliding_scenes.SCENES)} blocks of 10 x 10 cells, 12 modes each: largest "
+        report(TOPIC, f"all of {len(sliding_scenes.SCENES)} blocks of 10 x 10 cells, 12 modes each: largest "
                            "relative difference; of the scheme", "<= 1e-8; 1e-8",
                            "; ".join("< 1e-9" if error < 1e-9 else f"{error:.0e}" for error in (worst, worst_scheme)),
                            "dense eigenvalues, dense_modes.py")
@@ -53,7 +54,7 @@ class Dense(ModesCase):
         self.assertGreaterEqual(len(found.p), 8)
         for omega in expected:
             self.assert_close(found.nearest(1j * omega), 1j * omega, 1e-9)
-        sliding_scenes.row(TOPIC, "coefficient 0, no damping: the first 8 real modes, relative error", "<= 1e-9", "< 1e-9",
+        report(TOPIC, "coefficient 0, no damping: the first 8 real modes, relative error", "<= 1e-9", "< 1e-9",
                            "dense eigenvalues of the frictionless body")
 
 
@@ -67,7 +68,7 @@ class AnyNumberOfRanks(ModesCase):
             self.assertEqual(len(other.p), len(one.p))
             worst = max(worst, (np.abs(other.p - one.p) / np.abs(one.p)).max())
         self.assertLessEqual(worst, 1e-10)
-        sliding_scenes.row(TOPIC, "on 2 and 3 ranks against 1: largest relative difference of 8 modes", "<= 1e-10",
+        report(TOPIC, "on 2 and 3 ranks against 1: largest relative difference of 8 modes", "<= 1e-10",
                            "< 1e-10", "the same")
 
 
@@ -90,7 +91,7 @@ class Slide(ModesCase):
                 self.assertAlmostEqual(found.p[0].imag / near.imag, 1, delta=1e-3, msg=name)
                 self.assertAlmostEqual(found.p[0].real / exact.real, 1, delta=1e-5, msg=name)
                 self.assertAlmostEqual(found.p[0].imag / exact.imag, 1, delta=1e-5, msg=name)
-                sliding_scenes.row(
+                report(
                     TOPIC, f"{name}, 20 x 20, the strongest vibration of slide: growth, 1/s; frequency, Hz",
                     f"{exact.real:.6g}; {exact.imag / 2 / np.pi:.7g} within 1e-5 (continuous time {near.real:.5g}; "
                     f"{near.imag / 2 / np.pi:.6g} within 1 %, 0.1 %)",

@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 import sliding_scenes
 from dense_modes import Sliding
+from finding import report
 from modes_program import ModesCase
 from slab_modes import Slab, isotropic, turned
 
@@ -90,7 +91,7 @@ class Determinant(SlabCase):
         return complex(found.real, np.copysign(found.imag, expected.imag))
 
     def row(self, text, expected, within, found, order="-"):
-        sliding_scenes.row(TOPIC, text, f"{expected.real:.6f}, {expected.imag:.6f} within {within}", found,
+        report(TOPIC, text, f"{expected.real:.6f}, {expected.imag:.6f} within {within}", found,
                            "determinant, in the test", order)
 
 
@@ -104,7 +105,7 @@ class GridScale(SlabCase):
         calm = self.modes(self.scene(Slab(isotropic(0.3), time=2 * LENGTH / 32), 32), modes_to=2.7, modes_count=4,
                           modes_shapes=0)
         self.assertLess(calm.p[0].real, 0.25 * found.p[0].real)
-        sliding_scenes.row(TOPIC, "Coulomb, the fastest of all modes, at grid scale, 32 elements: growth over c_s/m",
+        report(TOPIC, "Coulomb, the fastest of all modes, at grid scale, 32 elements: growth over c_s/m",
                            "0.666454", f"{found.p[0].real:.6f}", "dense eigenvalues, dense_modes.py")
 
 
