@@ -51,17 +51,19 @@ inline Dataset dataset(hid_t file, const std::string& path) {
   return read;
 }
 
-inline herr_t collect(hid_t file, const char* name, const H5O_info_t* info, void* into) {
-  if (info->type == H5O_TYPE_DATASET)
-    (*static_cast<std::map<std::string, Dataset>*>(into))[name] = dataset(file, name);
+inline herr_t collect_name(hid_t, const char* name, const H5O_info_t* info, void* into) {
+  if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(into)->emplace_back(name);
   return 0;
 }
 
-/// Every dataset of a file by its path.
+/// Every dataset of a file by its path. Read after the names are known: an exception must not pass through
+/// HDF5, which would keep the file open, and show it for ever as it was.
 inline std::map<std::string, Dataset> everything(const std::string& path) {
+  std::vector<std::string> names;
   std::map<std::string, Dataset> all;
   const Hdf5File file = open(path);
-  hdf5(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, collect, &all, H5O_INFO_BASIC), path);
+  hdf5(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, collect_name, &names, H5O_INFO_BASIC), path);
+  for (const std::string& name : names) all[name] = dataset(file, name);
   return all;
 }
 
