@@ -26,7 +26,7 @@ LEVELS = {"scaling": ("T: ωT kept", "<", SKY), "frequency": ("T: one frequency"
 WAYS = {"time": ("T", "o", VERMILION), "coefficient": ("µ", "s", ORANGE), "damping": ("damping", "p", PURPLE),
         "slip_rate": ("slip-rate form", "*", GREEN), "density": ("density", "v", BLUE),
         "density_time": ("density, then T", "^", BLUE), "modes": ("T by modes", "h", SKY),
-        "modes_all": ("T, µ, density, damping by modes", "X", BLACK)}
+        "modes_all": ("T, µ, density and damping by modes", "X", BLACK)}
 
 
 def examples(cases):
@@ -83,7 +83,7 @@ def draw_distances(axes, cases):
     for label, marker, colour in LEVELS.values():
         axes.plot([], [], marker, color=colour, label=label)
     for label, marker, colour in WAYS.values():
-        axes.plot([], [], marker, color=colour, markerfacecolor="none", label=f"{label}: nearest tried")
+        axes.plot([], [], marker, color=colour, markerfacecolor="none", label=label)
     axes.axhline(1, color="0.4", linestyle=":", linewidth=1.2)
     axes.annotate("a block at rest", (0.003, 1), xycoords=("axes fraction", "data"), fontsize="small", va="bottom",
                   color="0.3")
@@ -93,9 +93,9 @@ def draw_distances(axes, cases):
     axes.autoscale(axis="y")
     axes.set_xticks(range(len(order)), [f"{young:g}\nmorph. {seed:g}" for young, _, _, seed in order])
     axes.set(ylabel="distance of the spectrum [1]", xlim=(-0.6, len(order) - 0.4),
-             xlabel="modulus of the inclusions [GPa] and morphology")
+             xlabel="modulus of the inclusions [GPa] and morphology; open marks: the nearest of all that were tried")
     axes.grid(axis="y", which="both", alpha=0.25)
-    axes.legend(ncol=6, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, 1.22), frameon=False)
+    axes.legend(ncol=4, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, 1.3), frameon=False)
 
 
 def draw(options):
